@@ -1,0 +1,38 @@
+/* What the seven demos share: command line, window, progress, files. No ray tracing here.
+ *
+ * A demo supplies the colour of one point of the film, and demo_main does the rest. */
+#ifndef DEMO_H
+#define DEMO_H
+
+#include "../rt.h"
+
+/* What pixel() may want to know about the picture. */
+typedef struct demo_view {
+    int width, height; /* in pixels */
+    int bounces;
+} demo_view;
+
+typedef struct demo {
+    const char *name;  /* "demo05": the picture goes to build/demo05.png */
+    const char *title; /* for the window and --help */
+
+    /* The linear colour seen through the point (x, y) of the film; on several threads. */
+    rt_vec3 (*pixel)(const demo_view *view, float x, float y, rt_rng *rng);
+
+    /* The byte for one channel of it; NULL means rt_encode with gamma 2.2. */
+    unsigned char (*encode)(float value);
+
+    int samples; /* per pixel, unless the command line says otherwise */
+    int bounces; /* likewise; 0: this chapter has no bounces yet */
+} demo;
+
+/* Chapters 1 to 4 do not know about gamma yet. */
+static inline unsigned char demo_linear(float value)
+{
+    return rt_encode(value, 1.0f);
+}
+
+/* The whole program: returns the exit status, 0 done, 1 failed, 2 wrong use, 130 Ctrl-C. */
+int demo_main(int argc, char **argv, const demo *d);
+
+#endif
