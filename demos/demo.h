@@ -19,18 +19,16 @@ typedef struct demo {
     /* The linear colour seen through the point (x, y) of the film; on several threads. */
     rt_vec3 (*pixel)(const demo_view *view, float x, float y, rt_rng *rng);
 
-    /* The byte for one channel of it; NULL means rt_encode with gamma 2.2. */
+    /* The byte for one channel of it: demo_linear, demo_gamma or the demo's own. */
     unsigned char (*encode)(float value);
 
     int samples; /* per pixel, unless the command line says otherwise */
     int bounces; /* likewise; 0: this chapter has no bounces yet */
 } demo;
 
-/* Chapters 1 to 4 do not know about gamma yet. */
-static inline unsigned char demo_linear(float value)
-{
-    return rt_encode(value, 1.0f);
-}
+/* For encode: the byte in proportion to the light, and the byte that a screen wants. */
+unsigned char demo_linear(float value);
+unsigned char demo_gamma(float value);
 
 /* The whole program: returns the exit status, 0 done, 1 failed, 2 wrong use, 130 Ctrl-C. */
 int demo_main(int argc, char **argv, const demo *d);

@@ -36,6 +36,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo06",
                              .title = "6. A mirror",
                              .pixel = pixel,
+                             .encode = demo_gamma,
                              .samples = 16,
                              .bounces = 5});
 }

@@ -59,6 +59,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo07",
                              .title = "7. Indirect light",
                              .pixel = pixel,
+                             .encode = demo_gamma,
                              .samples = 16,
                              .bounces = 5});
 }

@@ -1,0 +1,85 @@
+# rt.h: the demos, the tests and the checks. "make help" lists what there is.
+#
+# Nothing about packages is decided while make reads this file, because "make deps demo07"
+# must work where "deps" has yet to install them: OPENMP, SDL and STB are asked for when a
+# recipe needs them (= and not :=).
+
+CXX     ?= c++
+PREFIX  ?= /usr/local
+CFLAGS  ?= -O3 -fno-math-errno
+ARGS    ?=
+
+# -ffp-contract=off: the same bits everywhere; gcc would else contract a*b+c where it can.
+FLAGS    = -std=c99 $(CFLAGS) -ffp-contract=off $(WARNINGS)
+WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
+OPENMP   = $(shell .ci/deps openmp $(CC))
+STB      = $(shell .ci/deps stb $(CC))
+SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2))
+SDL_LIBS = $(shell pkg-config --libs sdl2)
+CMOCKA   = $(shell pkg-config --cflags --libs cmocka)
+
+DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07
+TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
+
+.PHONY: help deps demos test golden check docs install clean $(DEMOS)
+
+help: ## this list
+	@echo '  make demo01 ... demo07  build and run a chapter; ARGS="1280 960 --samples 64"'
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
+	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
+
+deps: ## install what is missing: SDL2, stb, cmocka, pkg-config, OpenMP
+	@.ci/deps install $(CC)
+
+ifneq (,$(filter deps,$(MAKECMDGOALS)))
+.NOTPARALLEL: # with -j, too, "deps" comes first
+endif
+
+# ---------------------------------------------------------------------------- the demos
+
+demos: $(DEMOS:%=build/%) ## render all seven to build/, without windows
+	@for demo in $^; do $$demo --no-window $(ARGS) || exit; done
+
+$(DEMOS): %: build/%
+	build/$@ $(ARGS)
+
+.SECONDEXPANSION:
+$(DEMOS:%=build/%): build/%: $$(wildcard demos/$$*_*.c) build/demo.o demos/demo.h demos/scene.h rt.h
+	$(CC) $(FLAGS) $(OPENMP) -o $@ $< build/demo.o $(SDL_LIBS) -lm
+
+build/demo.o: demos/demo.c demos/demo.h rt.h
+	@.ci/deps found $(CC) sdl2 stb
+	@mkdir -p build
+	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) -c -o $@ $<
+
+# ---------------------------------------------------------------------------- the tests
+
+test: $(TESTS:%=build/tests/%) $(DEMOS:%=build/%) ## run the tests, seconds
+	@tests/run $(TESTS:%=build/tests/%)
+
+build/tests/%: tests/%.c tests/test.h demos/scene.h demos/demo.h rt.h $$(wildcard demos/demo*_*.c)
+	@.ci/deps found $(CC) cmocka
+	@mkdir -p build/tests
+	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(CMOCKA) -lm
+
+golden: $(TESTS:%=build/tests/%) ## record the small pictures that the tests compare with
+	GOLDEN=record tests/run $^
+
+check: test ## all that a maintainer runs before a release
+	@tests/check
+
+# ---------------------------------------------------------------------------- the rest
+
+docs: demos ## put excerpts and pictures into docs/
+	docs/excerpts.sh docs/*.md README.md
+
+install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR
+	mkdir -p '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
+	cp rt.h '$(DESTDIR)$(PREFIX)/include/rt.h'
+	awk -v prefix='$(PREFIX)' '/^#define RT_VERSION_/ { v = v dot $$3; dot = "." } END { \
+	    printf "prefix=%s\n\nName: rt\nDescription: a small ray tracer in one C header\n", prefix; \
+	    printf "Version: %s\nCflags: -I$${prefix}/include\nLibs: -lm\n", v }' rt.h \
+	    > '$(DESTDIR)$(PREFIX)/share/pkgconfig/rt.pc'
+
+clean: ## remove build/
+	rm -rf build

@@ -1,0 +1,585 @@
+/* What the seven demos share; see demo.h. In this order: the command line, files, the state
+ * of a run, progress, the window, demo_main. No ray tracing: demo->pixel does that. */
+#define _POSIX_C_SOURCE 200809L /* isatty, fileno, stat, sigaction */
+#define RT_IMPLEMENTATION
+#include "demo.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define SDL_MAIN_HANDLED
+#include <SDL.h>
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+
+enum { DONE = 0, FAILED = 1, WRONG_USE = 2, INTERRUPTED = 130 };
+
+/* -------------------------------------------------------------------------------------
+ * The command line
+ * ------------------------------------------------------------------------------------- */
+
+#define MAX_PIXELS 67108864 /* 8192 x 8192 */
+
+typedef struct settings {
+    long width, height, samples, bounces, threads, seed;
+    const char *out;
+    bool window, quiet, help;
+} settings;
+
+static void print_help(const demo *d)
+{
+    printf(
+        "%s - %s\n\n"
+        "  build/%s [WIDTH HEIGHT] [options]        (default 640 480)\n"
+        "  make %s ARGS=\"WIDTH HEIGHT options\"\n\n"
+        "  --samples N   samples per pixel (default %d)\n"
+        "  --bounces N   how often a ray is sent on (default %d%s)\n"
+        "  --threads N   threads, 1 to 1024 (default: all cores)\n"
+        "  --seed N      another seed, another noise (default 0)\n"
+        "  --out FILE    where to write, .png or .pfm (default build/%s.png)\n"
+        "  --no-window   only render and write\n"
+        "  --quiet       print nothing but errors\n"
+        "  --help        this\n\n"
+        "In the window: s saves, Esc or q ends. Ctrl-C saves what there is and ends.\n",
+        d->name, d->title, d->name, d->name, d->samples, d->bounces,
+        d->bounces == 0 ? "; this chapter has none yet" : "", d->name);
+}
+
+/* A whole number from low to high, digits only; otherwise one line that says so. */
+static bool parse_number(const demo *d, const char *name, const char *text, long low,
+                         long high, long *value)
+{
+    bool good = text && *text && strspn(text, "0123456789") == strlen(text);
+    if (good) {
+        errno = 0;
+        *value = strtol(text, NULL, 10);
+        good = errno == 0 && *value >= low && *value <= high;
+    }
+    if (!good && !text)
+        fprintf(stderr, "%s: %s: a number is missing\n", d->name, name);
+    else if (!good)
+        fprintf(stderr, "%s: %s: '%s' is not a whole number from %ld to %ld\n", d->name,
+                name, text, low, high);
+    return good;
+}
+
+static bool parse(const demo *d, int argc, char **argv, settings *s)
+{
+    const struct {
+        const char *name;
+        long low, high, *value;
+    } numbers[] = {
+        {"--samples", 1, INT_MAX, &s->samples},
+        {"--bounces", 0, INT_MAX, &s->bounces},
+        {"--threads", 1, 1024, &s->threads},
+        {"--seed", 0, UINT32_MAX, &s->seed},
+    };
+    int positional = 0;
+    for (int i = 1; i < argc; i++) {
+        const char *arg = argv[i];
+        size_t n = 0;
+        while (n < 4 && strcmp(arg, numbers[n].name) != 0)
+            n++;
+        if (n < 4) {
+            if (!parse_number(d, arg, argv[++i], numbers[n].low, numbers[n].high,
+                              numbers[n].value))
+                return false;
+        } else if (strcmp(arg, "--out") == 0) {
+            s->out = argv[++i];
+            if (!s->out)
+                return fprintf(stderr, "%s: --out: a file name is missing\n", d->name),
+                       false;
+        } else if (strcmp(arg, "--no-window") == 0) {
+            s->window = false;
+        } else if (strcmp(arg, "--quiet") == 0) {
+            s->quiet = true;
+        } else if (strcmp(arg, "--help") == 0) {
+            s->help = true;
+        } else if (arg[0] == '-' && (arg[1] < '0' || arg[1] > '9')) {
+            fprintf(stderr, "%s: unknown option '%s' (--help lists them)\n", d->name,
+                    arg);
+            return false;
+        } else if (positional == 2) {
+            fprintf(stderr, "%s: '%s' is one argument too many\n", d->name, arg);
+            return false;
+        } else if (!parse_number(d, positional == 0 ? "WIDTH" : "HEIGHT", arg, 1,
+                                 MAX_PIXELS, positional == 0 ? &s->width : &s->height)) {
+            return false;
+        } else {
+            positional++;
+        }
+    }
+    if (positional == 1)
+        return fprintf(stderr, "%s: HEIGHT: a number is missing\n", d->name), false;
+    if (s->width > MAX_PIXELS / s->height) {
+        fprintf(stderr, "%s: %ld x %ld is too large: at most %d pixels in all\n", d->name,
+                s->width, s->height, MAX_PIXELS);
+        return false;
+    }
+    const char *dot = strrchr(s->out, '.');
+    if (!dot || (strcmp(dot, ".png") != 0 && strcmp(dot, ".pfm") != 0)) {
+        fprintf(stderr, "%s: --out: '%s' does not end in .png or .pfm\n", d->name,
+                s->out);
+        return false;
+    }
+    return true;
+}
+
+/* -------------------------------------------------------------------------------------
+ * Files: written under another name and renamed when complete, so that an existing file is
+ * either kept as it was or replaced by a whole new one.
+ * ------------------------------------------------------------------------------------- */
+
+static bool file_error(const demo *d, const char *path)
+{
+    fprintf(stderr, "%s: cannot write '%s': %s\n", d->name, path, strerror(errno));
+    return false;
+}
+
+/* A new file beside path, for rename; *name is to be freed. NULL, with errno, on failure. */
+static FILE *open_beside(const char *path, char **name)
+{
+    const size_t size = strlen(path) + 16;
+    FILE *file = NULL;
+    *name = malloc(size);
+    for (int i = 1; *name && !file && i < 100; i++) {
+        snprintf(*name, size, "%s.part%d", path, i);
+        file = fopen(*name, "wbx"); /* x: never an existing file */
+        if (!file && errno != EEXIST)
+            break;
+    }
+    return file;
+}
+
+/* Devices and pipes are written in place; renaming would replace them by a file. */
+static bool written_in_place(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+/* Said before the rendering, not after it. */
+static bool can_write(const demo *d, const char *path)
+{
+    struct stat info;
+    if (written_in_place(path))
+        return true;
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode)) {
+        errno = EISDIR;
+        return file_error(d, path);
+    }
+    char *name;
+    FILE *file = open_beside(path, &name);
+    const bool good = file != NULL;
+    if (!good) {
+        file_error(d, path);
+    } else {
+        fclose(file);
+        remove(name);
+    }
+    free(name);
+    return good;
+}
+
+static bool write_file(const demo *d, const char *path, const void *bytes, size_t size)
+{
+    char *name = NULL;
+    const bool in_place = written_in_place(path);
+    FILE *file = in_place ? fopen(path, "wb") : open_beside(path, &name);
+    bool good = file != NULL;
+    if (good) {
+        good = fwrite(bytes, 1, size, file) == size && fflush(file) == 0;
+        const int error = errno;
+        if (fclose(file) != 0)
+            good = false;
+        else
+            errno = error;
+        if (good && !in_place)
+            good = rename(name, path) == 0;
+        if (!good) {
+            file_error(d, path);
+            if (!in_place)
+                remove(name);
+        }
+    } else {
+        file_error(d, path);
+    }
+    free(name);
+    return good;
+}
+
+/* -------------------------------------------------------------------------------------
+ * A run: what was asked for, and how far it is
+ * ------------------------------------------------------------------------------------- */
+
+typedef struct run {
+    const demo *d;
+    settings s;
+    rt_image image;
+    unsigned char
+        *bytes;         /* the image encoded, 3 a pixel: what a PNG and the window show */
+    double started;     /* in seconds, like the others */
+    double line_due;    /* when the progress line may be printed again */
+    int quarters;       /* how many of the plain lines were printed */
+    double draw_due;    /* when the window may be drawn again */
+    SDL_Window *window; /* NULL: none */
+    SDL_Renderer *renderer;
+    SDL_Texture *texture;
+    bool closed; /* by Esc, q or the window's button */
+} run;
+
+static volatile sig_atomic_t interrupted; /* by Ctrl-C or SIGTERM; a second one kills */
+
+static void interrupt(int signal)
+{
+    (void)signal;
+    interrupted = 1;
+}
+
+static double seconds(void)
+{
+    return (double)SDL_GetPerformanceCounter() / (double)SDL_GetPerformanceFrequency();
+}
+
+static void encode(run *r)
+{
+    const rt_vec3 *pixels = r->image.pixels;
+    const int width = r->image.width;
+#ifdef _OPENMP
+#pragma omp parallel for
+#endif
+    for (int y = 0; y < r->image.height; y++)
+        for (int i = y * width; i < (y + 1) * width; i++) {
+            r->bytes[3 * i + 0] = r->d->encode(pixels[i].x);
+            r->bytes[3 * i + 1] = r->d->encode(pixels[i].y);
+            r->bytes[3 * i + 2] = r->d->encode(pixels[i].z);
+        }
+}
+
+/* PFM: linear floats, little endian (the -1), bottom row first. */
+static bool save_pfm(const run *r)
+{
+    const int width = r->image.width, height = r->image.height;
+    char head[64];
+    const size_t head_size =
+        (size_t)snprintf(head, sizeof head, "PF\n%d %d\n-1.0\n", width, height);
+    const size_t size = head_size + (size_t)width * (size_t)height * 12;
+    unsigned char *file = malloc(size);
+    if (!file)
+        return file_error(r->d, r->s.out);
+    memcpy(file, head, head_size);
+    unsigned char *p = file + head_size;
+    for (int y = height - 1; y >= 0; y--)
+        for (int i = y * width; i < (y + 1) * width; i++) {
+            const float rgb[3] = {r->image.pixels[i].x, r->image.pixels[i].y,
+                                  r->image.pixels[i].z};
+            for (int k = 0; k < 3; k++) {
+                uint32_t bits;
+                memcpy(&bits, &rgb[k], 4);
+                for (int shift = 0; shift < 32; shift += 8)
+                    *p++ = (unsigned char)(bits >> shift);
+            }
+        }
+    const bool good = write_file(r->d, r->s.out, file, size);
+    free(file);
+    return good;
+}
+
+static bool save_png(run *r)
+{
+    encode(r);
+    int size = 0;
+    unsigned char *file = stbi_write_png_to_mem(
+        r->bytes, 3 * r->image.width, r->image.width, r->image.height, 3, &size);
+    if (!file) {
+        errno = ENOMEM;
+        return file_error(r->d, r->s.out);
+    }
+    const bool good = write_file(r->d, r->s.out, file, (size_t)size);
+    free(file);
+    return good;
+}
+
+static bool save(run *r)
+{
+    return strcmp(strrchr(r->s.out, '.'), ".pfm") == 0 ? save_pfm(r) : save_png(r);
+}
+
+/* -------------------------------------------------------------------------------------
+ * Progress: a bar on a terminal, else a plain line after every quarter
+ * ------------------------------------------------------------------------------------- */
+
+static bool on_terminal(void)
+{
+    const char *term = getenv("TERM");
+    return isatty(fileno(stderr)) && (!term || strcmp(term, "dumb") != 0);
+}
+
+static void print_progress(run *r, double part)
+{
+    const double now = seconds();
+    if (r->s.quiet)
+        return;
+    if (on_terminal()) {
+        if (now < r->line_due)
+            return;
+        r->line_due = now + 0.1;
+        char bar[31];
+        for (int i = 0; i < 30; i++)
+            bar[i] = i < (int)(30.0 * part) ? '#' : '.';
+        bar[30] = '\0';
+        const double left = (now - r->started) * (1.0 - part) / part;
+        fprintf(stderr, "\r\033[K[%s] %3.0f %%, %.0f s left ", bar, 100.0 * part, left);
+    } else if (part < 1.0 && (int)(4.0 * part) > r->quarters) {
+        r->quarters = (int)(4.0 * part);
+        fprintf(stderr, "%d %%\n", 25 * r->quarters);
+    }
+}
+
+static void end_progress(const run *r)
+{
+    if (!r->s.quiet && on_terminal())
+        fprintf(stderr, "\r\033[K");
+}
+
+/* -------------------------------------------------------------------------------------
+ * The window
+ * ------------------------------------------------------------------------------------- */
+
+static void close_window(run *r)
+{
+    SDL_DestroyTexture(r->texture);
+    SDL_DestroyRenderer(r->renderer);
+    SDL_DestroyWindow(r->window);
+    r->texture = NULL;
+    r->renderer = NULL;
+    r->window = NULL;
+    SDL_Quit();
+}
+
+/* Without a display SDL succeeds all the same, with a driver that shows nothing. */
+static bool have_display(void)
+{
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); /* Ctrl-C is ours */
+    SDL_SetMainReady();
+    if (SDL_Init(SDL_INIT_VIDEO) != 0)
+        return false;
+    const char *driver = SDL_GetCurrentVideoDriver();
+    return driver && strcmp(driver, "offscreen") != 0 && strcmp(driver, "dummy") != 0;
+}
+
+static void open_window(run *r)
+{
+    const int width = r->image.width, height = r->image.height;
+    const char *why = "no display";
+    if (have_display()) {
+        SDL_Rect desk = {0, 0, width, height};
+        SDL_GetDisplayUsableBounds(0, &desk);
+        double zoom = 1.0; /* a picture larger than the desk is shown smaller */
+        if (width * zoom > 0.9 * desk.w)
+            zoom = 0.9 * desk.w / width;
+        if (height * zoom > 0.9 * desk.h)
+            zoom = 0.9 * desk.h / height;
+        r->window = SDL_CreateWindow(
+            r->d->title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+            1 + (int)(width * zoom - 0.5), 1 + (int)(height * zoom - 0.5),
+            SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+        if (r->window)
+            r->renderer = SDL_CreateRenderer(r->window, -1, 0);
+        if (r->renderer)
+            r->texture = SDL_CreateTexture(r->renderer, SDL_PIXELFORMAT_RGB24,
+                                           SDL_TEXTUREACCESS_STREAMING, width, height);
+        why = SDL_GetError();
+    }
+    if (r->texture) {
+        SDL_RenderSetLogicalSize(r->renderer, width, height); /* keeps the proportions */
+        return;
+    }
+    if (!r->s.quiet)
+        printf("%s: no window (%s)\n", r->d->name, why);
+    close_window(r);
+}
+
+static void draw(run *r, double part)
+{
+    char title[200];
+    if (part < 1.0)
+        snprintf(title, sizeof title, "%s - %.0f %% (s saves, q ends)", r->d->title,
+                 100.0 * part);
+    else
+        snprintf(title, sizeof title, "%s - done, %d samples (s saves, q ends)",
+                 r->d->title, r->image.samples);
+    SDL_SetWindowTitle(r->window, title);
+    encode(r);
+    SDL_UpdateTexture(r->texture, NULL, r->bytes, 3 * r->image.width);
+    SDL_RenderClear(r->renderer);
+    SDL_RenderCopy(r->renderer, r->texture, NULL, NULL);
+    SDL_RenderPresent(r->renderer);
+}
+
+static void handle(run *r, const SDL_Event *event)
+{
+    const SDL_Keycode key = event->type == SDL_KEYDOWN ? event->key.keysym.sym : 0;
+    if (event->type == SDL_QUIT || key == SDLK_ESCAPE || key == SDLK_q)
+        r->closed = true;
+    if (key == SDLK_s && event->key.repeat == 0 && save(r) && !r->s.quiet) {
+        end_progress(r);
+        printf("%s: saved %s\n", r->d->name, r->s.out);
+        fflush(stdout);
+    }
+    if (event->type == SDL_WINDOWEVENT)
+        r->draw_due = 0.0;
+}
+
+/* Called by rt_render_pixels between two bands of pixels, every few milliseconds, while no
+ * thread renders: so the window answers, and the image may be read. */
+static bool progress(void *user, float part)
+{
+    run *r = user;
+    print_progress(r, (double)part);
+    if (r->window) {
+        SDL_Event event;
+        while (!r->closed && SDL_PollEvent(&event))
+            handle(r, &event);
+        const double now = seconds();
+        if (!r->closed && now >= r->draw_due) { /* 30 a second, 5 % of the time at most */
+            draw(r, (double)part);
+            const double took = seconds() - now;
+            r->draw_due = now + took + (20.0 * took > 0.033 ? 20.0 * took : 0.033);
+        }
+    }
+    return !r->closed && !interrupted;
+}
+
+static void wait_until_closed(run *r)
+{
+    draw(r, 1.0);
+    while (!r->closed && !interrupted) {
+        SDL_Event event;
+        if (!SDL_WaitEventTimeout(&event, 100))
+            continue;
+        r->draw_due = 1.0;
+        do
+            handle(r, &event);
+        while (!r->closed && SDL_PollEvent(&event));
+        if (r->draw_due == 0.0)
+            draw(r, 1.0);
+    }
+}
+
+/* -------------------------------------------------------------------------------------
+ * The whole program
+ * ------------------------------------------------------------------------------------- */
+
+unsigned char demo_linear(float value)
+{
+    return rt_encode(value, 1.0f);
+}
+
+unsigned char demo_gamma(float value)
+{
+    return rt_encode(value, 2.2f);
+}
+
+static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
+{
+    const run *r = context;
+    const demo_view view = {r->image.width, r->image.height, (int)r->s.bounces};
+    return r->d->pixel(&view, x, y, rng);
+}
+
+static int render_and_save(run *r)
+{
+    const rt_options options = {.samples = (int)r->s.samples,
+                                .threads = (int)r->s.threads,
+                                .seed = (uint32_t)r->s.seed,
+                                .progress = progress,
+                                .user = r};
+    if (!r->s.quiet)
+        printf("%s: %ld x %ld, %ld samples, %ld bounces, %d threads\n", r->d->name,
+               r->s.width, r->s.height, r->s.samples, r->s.bounces,
+               rt_thread_count(options.threads));
+    fflush(stdout);
+    r->started = seconds();
+    const rt_status status = rt_render_pixels(call_pixel, r, &options, &r->image);
+    const double took = seconds() - r->started;
+    end_progress(r);
+    if (status != RT_OK && status != RT_CANCELLED) {
+        fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status));
+        return FAILED;
+    }
+    if (r->closed) {
+        if (!r->s.quiet)
+            printf("%s: closed after %.2f s, nothing written\n", r->d->name, took);
+        return DONE;
+    }
+    if (!save(r))
+        return FAILED;
+    if (!r->s.quiet)
+        printf("%s: %.2f s, %.1f million rays per second, wrote %s%s\n", r->d->name, took,
+               (double)r->image.rays / took * 1e-6, r->s.out,
+               status == RT_CANCELLED ? " (interrupted)" : "");
+    fflush(stdout);
+    if (r->window && status == RT_OK)
+        wait_until_closed(r);
+    return status == RT_CANCELLED ? INTERRUPTED : DONE;
+}
+
+int demo_main(int argc, char **argv, const demo *d)
+{
+    char out[64];
+    snprintf(out, sizeof out, "build/%s.png", d->name);
+    run r = {.d = d,
+             .s = {.width = 640,
+                   .height = 480,
+                   .samples = d->samples,
+                   .bounces = d->bounces,
+                   .out = out,
+                   .window = true}};
+    if (!parse(d, argc, argv, &r.s))
+        return WRONG_USE;
+    if (r.s.help) {
+        print_help(d);
+        return fflush(stdout) == 0 ? DONE : FAILED;
+    }
+    if (!can_write(d, r.s.out))
+        return FAILED;
+    if (d->bounces == 0 && r.s.bounces > 0 && !r.s.quiet)
+        printf("%s: this chapter has no bounces yet, --bounces changes nothing\n",
+               d->name);
+
+    const size_t count = (size_t)r.s.width * (size_t)r.s.height;
+    r.image.width = (int)r.s.width;
+    r.image.height = (int)r.s.height;
+    r.image.pixels = calloc(count, sizeof *r.image.pixels);
+    r.bytes = malloc(count * 3);
+    int result = FAILED;
+    if (r.image.pixels && r.bytes) {
+        struct sigaction action = {.sa_handler = interrupt};
+        action.sa_flags = (int)SA_RESETHAND;
+        sigaction(SIGINT, &action, NULL);
+        sigaction(SIGTERM, &action, NULL);
+        if (r.s.window)
+            open_window(&r);
+        result = render_and_save(&r);
+        if (r.window)
+            close_window(&r);
+    } else {
+        fprintf(stderr, "%s: not enough memory for %ld x %ld pixels\n", d->name,
+                r.s.width, r.s.height);
+    }
+    free(r.image.pixels);
+    free(r.bytes);
+    if (ferror(stdout) || fflush(stdout) != 0) {
+        fprintf(stderr, "%s: cannot write to standard output\n", d->name);
+        result = FAILED;
+    }
+    return result;
+}
