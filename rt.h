@@ -274,11 +274,10 @@ static inline void rt_sincos(float turns, float *sine, float *cosine)
     const int quarter = (int)(turns * 4.0f + 0.5f);
     const float x = (turns * 4.0f - (float)quarter) * 1.57079632679f;
     const float xx = x * x;
-    const float s =
-        x +
-        x * xx * (-1.6666654611e-1f + xx * (8.3321608736e-3f - xx * 1.9515295891e-4f));
+    const float s3 = -1.6666654611e-1f + xx * (8.3321608736e-3f - xx * 1.9515295891e-4f);
     const float c4 = 4.1666645683e-2f + xx * (-1.3887316255e-3f + xx * 2.4433157118e-5f);
-    const float c = 1.0f - 0.5f * xx + xx * xx * c4;
+    const float s = x + x * xx * s3; /* the small terms first, then one rounding */
+    const float c = 1.0f + (xx * xx * c4 - 0.5f * xx);
     const bool odd = (quarter & 1) != 0; /* a quarter turn on, sine is cosine */
     *sine = ((quarter & 2) != 0 ? -1.0f : 1.0f) * (odd ? c : s);
     *cosine = (((quarter + 1) & 2) != 0 ? -1.0f : 1.0f) * (odd ? s : c);
