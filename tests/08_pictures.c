@@ -1,0 +1,442 @@
+/* Chapter 8: rt_render, on one thread and on many, whole and in pieces. */
+#include "../demos/scene.h"
+#include "test.h"
+
+static const rt_options defaults; /* all zero */
+
+static rt_image render(int width, int height, rt_options options)
+{
+    rt_image image = new_image(width, height);
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image), RT_OK);
+    return image;
+}
+
+static rt_options with(int samples, int threads)
+{
+    rt_options options = defaults;
+    options.samples = samples;
+    options.threads = threads;
+    options.bounces = 3;
+    return options;
+}
+
+/* ---- the same bits ------------------------------------------------------------------ */
+
+static void test_threads_do_not_change_a_bit(void **state)
+{
+    (void)state;
+    rt_image one = render(101, 67, with(3, 1));
+    const int threads[] = {2, 3, 7, 8, 0};
+    for (size_t i = 0; i < COUNT(threads); i++) {
+        rt_image many = render(101, 67, with(3, threads[i]));
+        assert_true(same_pixels(&one, &many));
+        assert_int_equal(one.rays, many.rays);
+        free(many.pixels);
+    }
+    free(one.pixels);
+}
+
+static void test_samples_in_pieces_do_not_change_a_bit(void **state)
+{
+    (void)state;
+    rt_image whole = render(50, 40, with(9, 0)), pieces = new_image(50, 40);
+    const int parts[] = {1, 3, 5};
+    for (size_t i = 0; i < COUNT(parts); i++) {
+        const rt_options options = with(parts[i], (int)i + 1);
+        assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &pieces),
+                         RT_OK);
+    }
+    assert_int_equal(pieces.samples, 9);
+    assert_int_equal(pieces.rays, whole.rays);
+    assert_true(same_pixels(&whole, &pieces));
+    free(whole.pixels);
+    free(pieces.pixels);
+}
+
+static void test_the_image_need_not_be_cleared(void **state)
+{
+    (void)state;
+    rt_image clean = render(20, 20, with(2, 0)), dirty = new_image(20, 20);
+    const rt_options options = with(2, 0);
+    memset(dirty.pixels, 0xff, 20 * 20 * sizeof *dirty.pixels); /* NaN */
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &dirty), RT_OK);
+    assert_true(same_pixels(&clean, &dirty));
+    free(clean.pixels);
+    free(dirty.pixels);
+}
+
+static void test_two_seeds_two_noises_one_picture(void **state)
+{
+    (void)state;
+    rt_options options = with(64, 0);
+    rt_image a = render(20, 15, options);
+    options.seed = 1;
+    rt_image b = render(20, 15, options);
+    double difference = 0, sum = 0;
+    int same = 0;
+    for (int i = 0; i < 20 * 15; i++) {
+        difference += (double)(a.pixels[i].x - b.pixels[i].x);
+        sum += (double)a.pixels[i].x;
+        same += a.pixels[i].x == b.pixels[i].x;
+    }
+    assert_true(same < 20 * 15 / 10);
+    assert_close(difference / sum, 0, 0.03);
+    free(a.pixels);
+    free(b.pixels);
+}
+
+static rt_vec3 where_and_when(const void *context, float x, float y, rt_rng *rng)
+{
+    (void)context;
+    rng->rays = 2;
+    return rt_vec(x, y, rt_random(rng));
+}
+
+static void test_samples_fill_the_square_of_their_pixel(void **state)
+{
+    /* The mean of the place is the pixel's centre; no sample lies outside its square. */
+    (void)state;
+    enum { W = 5, H = 3, N = 4000 };
+    rt_image image = new_image(W, H);
+    rt_options options = defaults;
+    options.samples = 1;
+    double smallest = 1, largest = 0;
+    for (int n = 0; n < N; n++) {
+        const rt_vec3 before = image.pixels[7];
+        assert_int_equal(rt_render_pixels(where_and_when, NULL, &options, &image), RT_OK);
+        const double x = ((double)image.pixels[7].x * (n + 1) - (double)before.x * n) - 2;
+        smallest = x < smallest ? x : smallest;
+        largest = x > largest ? x : largest;
+    }
+    assert_in_range((int)(1000 * smallest + 10), 0, 20); /* rounding of the means: 0.01 */
+    assert_in_range((int)(1000 * largest), 980, 1010);
+    for (int i = 0; i < W * H; i++)
+        assert_vec(image.pixels[i], i % W + 0.5, i / W + 0.5, 0.5,
+                   4 * sqrt(1.0 / 12 / N) + 1e-3);
+    assert_int_equal(image.samples, N);
+    assert_int_equal(image.rays, 2 * N * W * H);
+    free(image.pixels);
+}
+
+/* ---- defaults and shapes ------------------------------------------------------------ */
+
+static void test_options_of_zero_or_null_are_the_defaults(void **state)
+{
+    (void)state;
+    rt_image a = new_image(8, 6), b = new_image(8, 6), c = new_image(8, 6);
+    rt_options options = defaults;
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &a), RT_OK);
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &b), RT_OK);
+    options.samples = 16;
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &c), RT_OK);
+    assert_int_equal(a.samples, 16);
+    assert_true(same_pixels(&a, &b));
+    assert_true(same_pixels(&a, &c));
+    free(a.pixels);
+    free(b.pixels);
+    free(c.pixels);
+}
+
+static void test_pictures_of_one_pixel_row_or_column(void **state)
+{
+    (void)state;
+    const int sizes[][2] = {{1, 1}, {1, 300}, {300, 1}, {2, 1}};
+    for (size_t i = 0; i < COUNT(sizes); i++) {
+        rt_image image = render(sizes[i][0], sizes[i][1], with(1, 0));
+        for (int k = 0; k < sizes[i][0] * sizes[i][1]; k++)
+            assert_true(image.pixels[k].x >= 0 && image.pixels[k].x <= FLT_MAX);
+        free(image.pixels);
+    }
+}
+
+static void test_an_empty_scene_is_the_background(void **state)
+{
+    (void)state;
+    rt_scene scene;
+    memset(&scene, 0, sizeof scene);
+    scene.background = rt_vec(0.1f, 0.2f, 0.3f);
+    rt_image image = new_image(7, 5);
+    assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_OK);
+    for (int i = 0; i < 7 * 5; i++)
+        assert_vec(image.pixels[i], 0.1, 0.2, 0.3, 1e-7);
+    assert_int_equal(image.rays, 7 * 5 * 16);
+    free(image.pixels);
+}
+
+static void test_no_light_is_a_black_picture(void **state)
+{
+    (void)state;
+    rt_scene scene = scene_indirect;
+    scene.light_count = 0;
+    rt_image image = new_image(7, 5);
+    assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_OK);
+    for (int i = 0; i < 7 * 5; i++)
+        assert_vec(image.pixels[i], 0, 0, 0, 0);
+    free(image.pixels);
+}
+
+static void test_more_samples_less_noise(void **state)
+{
+    /* Four times the samples, half of the error: what the report wanted to know. */
+    (void)state;
+    rt_image best = render(40, 30, with(1024, 0));
+    double error[2];
+    for (int i = 0; i < 2; i++) {
+        rt_options options = with(i == 0 ? 16 : 64, 0);
+        options.seed = 1;
+        rt_image image = render(40, 30, options);
+        double sum = 0;
+        for (int k = 0; k < 40 * 30; k++) {
+            const double d = (double)(image.pixels[k].y - best.pixels[k].y);
+            sum += d * d;
+        }
+        error[i] = sqrt(sum);
+        free(image.pixels);
+    }
+    assert_close(error[0] / error[1], 2, 0.2);
+    free(best.pixels);
+}
+
+/* ---- progress and cancelling -------------------------------------------------------- */
+
+typedef struct watch {
+    int calls, stop_at; /* stop at this call; 0: never */
+    float last;
+} watch;
+
+static bool watch_progress(void *user, float part)
+{
+    watch *w = user;
+    if (!(part > w->last && part <= 1))
+        fail_msg("progress from %g to %g", (double)w->last, (double)part);
+    w->last = part;
+    return ++w->calls != w->stop_at;
+}
+
+static void test_progress_rises_to_one(void **state)
+{
+    (void)state;
+    watch w = {0, 0, 0};
+    rt_options options = with(4, 2);
+    options.progress = watch_progress;
+    options.user = &w;
+    rt_image image = render(160, 120, options);
+    assert_true(w.calls > 10);
+    assert_close(w.last, 1, 0);
+    free(image.pixels);
+}
+
+static void test_a_cancelled_picture_goes_on_to_the_same_bits(void **state)
+{
+    (void)state;
+    rt_image whole = render(160, 120, with(5, 0));
+    for (int stop_at = 1; stop_at < 30; stop_at++) {
+        rt_image image = new_image(160, 120);
+        rt_options options = with(5, 2);
+        watch w = {0, stop_at, 0};
+        options.progress = watch_progress;
+        options.user = &w;
+        assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image),
+                         stop_at <= 25 ? RT_CANCELLED : RT_OK);
+        if (image.samples < 5) {
+            assert_int_equal(w.calls, stop_at);
+            options = with(5 - image.samples, 1);
+            assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image),
+                             RT_OK);
+        }
+        assert_int_equal(image.samples, 5);
+        assert_int_equal(image.done, 0);
+        assert_int_equal(image.rays, whole.rays);
+        assert_true(same_pixels(&whole, &image));
+        free(image.pixels);
+    }
+    free(whole.pixels);
+}
+
+/* ---- bad input ---------------------------------------------------------------------- */
+
+static void test_null_is_refused(void **state)
+{
+    (void)state;
+    rt_image image = new_image(4, 4), no_pixels = image;
+    rt_scene scene = scene_indirect;
+    no_pixels.pixels = NULL;
+    assert_int_equal(rt_render(NULL, &room_camera, NULL, &image), RT_BAD_POINTER);
+    assert_int_equal(rt_render(&scene, NULL, NULL, &image), RT_BAD_POINTER);
+    assert_int_equal(rt_render(&scene, &room_camera, NULL, NULL), RT_BAD_POINTER);
+    assert_int_equal(rt_render(&scene, &room_camera, NULL, &no_pixels), RT_BAD_POINTER);
+    assert_int_equal(rt_render_pixels(NULL, NULL, NULL, &image), RT_BAD_POINTER);
+    assert_int_equal(rt_render_pixels(where_and_when, NULL, NULL, NULL), RT_BAD_POINTER);
+    scene.spheres = NULL;
+    assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
+    scene = scene_indirect;
+    scene.boxes = NULL;
+    assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
+    scene = scene_indirect;
+    scene.lights = NULL;
+    assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
+    scene = scene_indirect;
+    scene.sphere_count = -1;
+    assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
+    assert_int_equal(rt_check_scene(NULL, NULL), RT_BAD_POINTER);
+    free(image.pixels);
+}
+
+static void test_bad_sizes_are_refused(void **state)
+{
+    (void)state;
+    rt_vec3 pixel = {7, 7, 7};
+    const int sizes[][2] = {{0, 5},  {5, 0},         {-1, 5},
+                            {5, -1}, {65536, 65536}, {INT_MAX, 2}};
+    for (size_t i = 0; i < COUNT(sizes); i++) {
+        rt_image image = {sizes[i][0], sizes[i][1], &pixel, 0, 0, 0};
+        assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &image),
+                         RT_BAD_SIZE);
+    }
+    rt_image image = {1, 1, &pixel, 0, 1, 0}; /* done: more than there is */
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &image), RT_BAD_SIZE);
+    image.done = -1;
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &image), RT_BAD_SIZE);
+    assert_vec(pixel, 7, 7, 7, 0);
+}
+
+static void test_bad_options_are_refused(void **state)
+{
+    (void)state;
+    rt_vec3 pixel = {7, 7, 7};
+    rt_image image = {1, 1, &pixel, 0, 0, 0};
+    const struct {
+        int samples, bounces, threads, had;
+        rt_status status;
+    } cases[] = {
+        {-1, 0, 0, 0, RT_BAD_SAMPLES},          {1, -1, 0, 0, RT_BAD_BOUNCES},
+        {1, 0, -1, 0, RT_BAD_THREADS},          {1, 0, 1025, 0, RT_BAD_THREADS},
+        {2, 0, 0, INT_MAX - 1, RT_BAD_SAMPLES}, {1, 0, 0, -1, RT_BAD_SAMPLES},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        rt_options options = defaults;
+        options.samples = cases[i].samples;
+        options.bounces = cases[i].bounces;
+        options.threads = cases[i].threads;
+        image.samples = cases[i].had;
+        assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image),
+                         cases[i].status);
+        assert_vec(pixel, 7, 7, 7, 0);
+    }
+}
+
+static void test_bad_cameras_are_refused(void **state)
+{
+    (void)state;
+    rt_vec3 pixel = {7, 7, 7};
+    rt_image image = {1, 1, &pixel, 0, 0, 0};
+    const rt_camera cameras[] = {
+        {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 180},
+        {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, -1},
+        {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, NAN},
+        {{0, NAN, 0}, {0, 0, 0}, {0, 0, 0}, 0},
+        {{0, 0, 0}, {INFINITY, 0, 0}, {0, 0, 0}, 0},
+        {{0, 0, 0}, {0, 0, 0}, {0, 0, NAN}, 0},
+    };
+    for (size_t i = 0; i < COUNT(cameras); i++)
+        assert_int_equal(rt_render(&scene_indirect, &cameras[i], NULL, &image),
+                         RT_BAD_CAMERA);
+    assert_vec(pixel, 7, 7, 7, 0);
+}
+
+static void test_check_scene_finds_the_offender(void **state)
+{
+    (void)state;
+    const float bad[] = {NAN, INFINITY, -1e-3f};
+    random_scene r;
+    rt_rng rng = rt_rng_start(0, 0, 31);
+    make_random_scene(&r, &rng);
+    int index = -1;
+    assert_int_equal(rt_check_scene(&r.scene, &index), RT_OK);
+    assert_int_equal(rt_check_scene(&r.scene, NULL), RT_OK);
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        float *const places[] = {&r.spheres[3].radius, &r.spheres[3].material.albedo.y,
+                                 &r.boxes[2].material.albedo.z, &r.lights[1].intensity.x,
+                                 &r.scene.background.y};
+        const rt_status status[] = {RT_BAD_SPHERE, RT_BAD_SPHERE, RT_BAD_BOX,
+                                    RT_BAD_LIGHT, RT_BAD_BACKGROUND};
+        const int where[] = {3, 3, 2, 1, 0};
+        for (size_t k = 0; k < COUNT(places); k++) {
+            const float good = *places[k];
+            *places[k] = bad[i];
+            assert_int_equal(rt_check_scene(&r.scene, &index), status[k]);
+            assert_int_equal(index, where[k]);
+            *places[k] = good;
+        }
+    }
+    for (size_t i = 0; i < 2; i++) {
+        float *const places[] = {&r.spheres[4].center.z, &r.boxes[3].min.x,
+                                 &r.boxes[3].max.y, &r.lights[2].position.y};
+        const rt_status status[] = {RT_BAD_SPHERE, RT_BAD_BOX, RT_BAD_BOX, RT_BAD_LIGHT};
+        for (size_t k = 0; k < COUNT(places); k++) {
+            const float good = *places[k];
+            *places[k] = bad[i];
+            assert_int_equal(rt_check_scene(&r.scene, NULL), status[k]);
+            *places[k] = good;
+        }
+    }
+    r.spheres[0].radius = 0;
+    assert_int_equal(rt_check_scene(&r.scene, NULL), RT_BAD_SPHERE);
+    r.spheres[0].radius = 1;
+    r.boxes[1].material.albedo.x = 1.001f;
+    assert_int_equal(rt_check_scene(&r.scene, NULL), RT_BAD_BOX);
+    r.boxes[1].material.albedo.x = 1;
+    r.boxes[0].min.z = r.boxes[0].max.z + 1;
+    assert_int_equal(rt_check_scene(&r.scene, &index), RT_BAD_BOX);
+    assert_int_equal(index, 0);
+}
+
+static void test_every_status_has_a_text_of_its_own(void **state)
+{
+    (void)state;
+    for (int i = RT_OK; i <= RT_BAD_BACKGROUND + 1; i++)
+        for (int k = RT_OK; k < i; k++)
+            assert_string_not_equal(rt_status_text((rt_status)i),
+                                    rt_status_text((rt_status)k));
+    assert_string_equal(rt_status_text((rt_status)99), "unknown status");
+}
+
+static void test_thread_count(void **state)
+{
+    (void)state;
+    assert_int_equal(rt_thread_count(1), 1);
+    assert_true(rt_thread_count(0) >= 1);
+    assert_int_equal(rt_thread_count(-5), 1);
+#ifdef _OPENMP
+    assert_int_equal(rt_thread_count(3), 3);
+    assert_int_equal(rt_thread_count(5000), 1024);
+#else
+    assert_int_equal(rt_thread_count(3), 1);
+#endif
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_threads_do_not_change_a_bit),
+        cmocka_unit_test(test_samples_in_pieces_do_not_change_a_bit),
+        cmocka_unit_test(test_the_image_need_not_be_cleared),
+        cmocka_unit_test(test_two_seeds_two_noises_one_picture),
+        cmocka_unit_test(test_samples_fill_the_square_of_their_pixel),
+        cmocka_unit_test(test_options_of_zero_or_null_are_the_defaults),
+        cmocka_unit_test(test_pictures_of_one_pixel_row_or_column),
+        cmocka_unit_test(test_an_empty_scene_is_the_background),
+        cmocka_unit_test(test_no_light_is_a_black_picture),
+        cmocka_unit_test(test_more_samples_less_noise),
+        cmocka_unit_test(test_progress_rises_to_one),
+        cmocka_unit_test(test_a_cancelled_picture_goes_on_to_the_same_bits),
+        cmocka_unit_test(test_null_is_refused),
+        cmocka_unit_test(test_bad_sizes_are_refused),
+        cmocka_unit_test(test_bad_options_are_refused),
+        cmocka_unit_test(test_bad_cameras_are_refused),
+        cmocka_unit_test(test_check_scene_finds_the_offender),
+        cmocka_unit_test(test_every_status_has_a_text_of_its_own),
+        cmocka_unit_test(test_thread_count),
+    };
+    return cmocka_run_group_tests_name("8 pictures", tests, NULL, NULL);
+}
