@@ -364,9 +364,14 @@ static void close_window(run *r)
     SDL_Quit();
 }
 
-/* Without a display SDL succeeds all the same, with a driver that shows nothing. */
+/* Without a display SDL succeeds all the same, with a driver that shows nothing, and the
+ * libraries that it asks complain on stderr: on Linux look before asking. */
 static bool have_display(void)
 {
+#ifdef __linux__
+    if (!getenv("DISPLAY") && !getenv("WAYLAND_DISPLAY"))
+        return false;
+#endif
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); /* Ctrl-C is ours */
     SDL_SetMainReady();
     if (SDL_Init(SDL_INIT_VIDEO) != 0)

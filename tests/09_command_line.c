@@ -1,0 +1,394 @@
+/* The demos as programs: options, files, messages and exit status. They run in a folder of
+ * their own; DEMOS says where the programs are, build/ unless the environment says else. */
+#define _XOPEN_SOURCE 700 /* mkdtemp, popen, realpath, symlink, nftw */
+#include <ftw.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "test.h"
+
+static char demos[4096], folder[] = "/tmp/rt-test-XXXXXX";
+static char said[65536]; /* what the last program printed, on both channels */
+
+static int run(const char *command)
+{
+    char line[8192];
+    snprintf(line, sizeof line, "{ %s ; } 2>&1", command);
+    FILE *pipe = popen(line, "r");
+    assert_non_null(pipe);
+    const size_t n = fread(said, 1, sizeof said - 1, pipe);
+    said[n] = '\0';
+    const int status = pclose(pipe);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* Run a demo, expect this status and, in what it says, all of these words ("|" between). */
+static void expect(int status, const char *words, const char *arguments)
+{
+    char command[7000], list[500];
+    snprintf(command, sizeof command, "\"$DEMOS\"/%s", arguments);
+    const int actual = run(command);
+    if (actual != status)
+        fail_msg("%s: exit status %d, expected %d; it said: %s", arguments, actual,
+                 status, said);
+    snprintf(list, sizeof list, "%s", words);
+    for (char *word = strtok(list, "|"); word; word = strtok(NULL, "|"))
+        if (!strstr(said, word))
+            fail_msg("%s: no '%s' in: %s", arguments, word, said);
+}
+
+static bool exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
+static size_t read_file(const char *path, unsigned char *bytes, size_t size)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        fail_msg("cannot open %s", path);
+    const size_t n = fread(bytes, 1, size, file);
+    fclose(file);
+    return n;
+}
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static int remove_one(const char *path, const struct stat *info, int kind,
+                      struct FTW *place)
+{
+    (void)info;
+    (void)kind;
+    (void)place;
+    return remove(path);
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    const char *given = getenv("DEMOS");
+    if (!realpath(given ? given : "build", demos) || setenv("DEMOS", demos, 1) != 0 ||
+        setenv("LC_ALL", "C", 1) != 0 || unsetenv("DISPLAY") != 0 ||
+        unsetenv("WAYLAND_DISPLAY") != 0 || !mkdtemp(folder))
+        return -1;
+    return chdir(folder);
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    return chdir("/") || nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+}
+
+/* ---- what works --------------------------------------------------------------------- */
+
+static void test_help(void **state)
+{
+    (void)state;
+    expect(0,
+           "WIDTH HEIGHT|--samples|--bounces|--threads|--seed|--out|--no-window|--quiet",
+           "demo07 --help");
+}
+
+static void test_all_seven_write_a_png_to_build(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("build", 0777), 0);
+    for (int i = 1; i <= 7; i++) {
+        static unsigned char bytes[100000];
+        char arguments[100], path[40];
+        snprintf(arguments, sizeof arguments, "demo0%d 40 30 --samples 2 --no-window", i);
+        snprintf(path, sizeof path, "build/demo0%d.png", i);
+        expect(0, "40 x 30, 2 samples|threads|rays per second|wrote build/demo0",
+               arguments);
+        assert_in_range(read_file(path, bytes, sizeof bytes), 100, 20000);
+        assert_memory_equal(bytes, "\x89PNG\r\n\x1a\n", 8);
+        assert_memory_equal(bytes + 16, "\0\0\0\x28\0\0\0\x1e", 8); /* 40 x 30 */
+        assert_memory_equal(bytes + 24, "\x08\x02", 2);             /* 8 bits, RGB */
+    }
+}
+
+static void test_pfm(void **state)
+{
+    /* Little endian, bottom row first: the floor is brighter than the top left corner of
+     * the picture, and demo01 is exactly black or the sphere's colour. */
+    (void)state;
+    static unsigned char bytes[40000];
+    expect(0, "wrote a.pfm", "demo01 64 48 --samples 1 --no-window --out a.pfm");
+    const size_t size = read_file("a.pfm", bytes, sizeof bytes);
+    const char head[] = "PF\n64 48\n-1.0\n";
+    assert_int_equal(size, strlen(head) + 64 * 48 * 12);
+    assert_memory_equal(bytes, head, strlen(head));
+    int red[2] = {0, 0}; /* in the lower and upper half of the picture */
+    for (size_t i = 0; i < 64 * 48; i++) {
+        const unsigned char *p = bytes + strlen(head) + 12 * i;
+        if (memcmp(p, "\x9a\x99\x59\x3f", 4) == 0) /* 0.85f */
+            red[i >= 64 * 24]++;
+        else
+            assert_memory_equal(p, "\0\0\0\0\0\0\0\0\0\0\0\0", 12);
+    }
+    assert_true(red[0] > 150);
+    assert_true(red[1] < red[0] / 5);
+}
+
+static void test_one_thread_or_two_the_same_file(void **state)
+{
+    (void)state;
+    expect(0, "1 threads",
+           "demo07 60 40 --samples 2 --no-window --threads 1 --out 1.png");
+    expect(0, "2 threads",
+           "demo07 60 40 --samples 2 --no-window --threads 2 --out 2.png");
+    assert_int_equal(run("cmp 1.png 2.png"), 0);
+    expect(0, "", "demo07 60 40 --samples 2 --no-window --seed 1 --out 3.png");
+    assert_int_equal(run("cmp 1.png 3.png"), 1);
+}
+
+static void test_quiet_is_quiet(void **state)
+{
+    (void)state;
+    expect(0, "", "demo05 20 20 --samples 1 --quiet --out q.png");
+    assert_string_equal(said, "");
+    assert_true(exists("q.png"));
+}
+
+static void test_without_a_display_it_says_so_and_goes_on(void **state)
+{
+    (void)state;
+    expect(0, "no window|wrote w.png", "demo05 20 20 --samples 1 --out w.png");
+    assert_int_equal(run("DISPLAY=:77 \"$DEMOS\"/demo05 20 20 --samples 1 --out x.png"),
+                     0);
+    assert_non_null(strstr(said, "no window"));
+    assert_true(exists("x.png"));
+}
+
+static void test_plain_lines_when_piped(void **state)
+{
+    (void)state;
+    expect(0, "25 %\n50 %\n75 %\n", "demo07 160 120 --samples 4 --no-window --out p.png");
+    assert_null(strchr(said, '\r'));
+    assert_null(strchr(said, '\033'));
+}
+
+static void test_bounces_where_there_are_none(void **state)
+{
+    (void)state;
+    expect(0, "no bounces yet",
+           "demo04 20 20 --samples 1 --bounces 3 --no-window --out n.png");
+    expect(0, "3 bounces",
+           "demo06 20 20 --samples 1 --bounces 3 --no-window --out n.png");
+}
+
+static void test_odd_numbers_of_threads_in_the_environment(void **state)
+{
+    (void)state;
+    const char *values[] = {"0", "-1", "abc", "1000", "3"};
+    expect(0, "", "demo07 30 20 --samples 1 --no-window --out 1.png --threads 1");
+    for (size_t i = 0; i < COUNT(values); i++) {
+        char command[300];
+        snprintf(command, sizeof command,
+                 "OMP_NUM_THREADS=%s \"$DEMOS\"/demo07 30 20 --samples 1 --no-window "
+                 "--out e.png",
+                 values[i]);
+        assert_int_equal(run(command), 0);
+        assert_int_equal(run("cmp 1.png e.png"), 0);
+    }
+}
+
+static void test_closed_pipe_does_not_hang(void **state)
+{
+    (void)state;
+    run("\"$DEMOS\"/demo07 60 40 --samples 4 --no-window --out h.png | head -n 1");
+    assert_non_null(strstr(said, "60 x 40"));
+    assert_int_equal(run("ls *.part*"), 2);
+}
+
+/* ---- wrong use: one line, status 2 -------------------------------------------------- */
+
+static void test_wrong_use(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"--sample 3", "unknown option '--sample'"},
+        {"-x", "unknown option '-x'"},
+        {"--samples", "--samples: a number is missing"},
+        {"--samples 0", "--samples: '0'"},
+        {"--samples -5", "--samples: '-5'"},
+        {"--samples abc", "--samples: 'abc'"},
+        {"--samples 12x", "--samples: '12x'"},
+        {"--samples 1e9", "--samples: '1e9'"},
+        {"--samples ''", "--samples: ''"},
+        {"--samples ' 5'", "--samples: ' 5'"},
+        {"--samples +5", "--samples: '+5'"},
+        {"--samples 2.5", "--samples: '2.5'"},
+        {"--samples 99999999999", "--samples: '99999999999'"},
+        {"--samples 99999999999999999999999", "--samples: '99999999999999999999999'"},
+        {"--bounces -1", "--bounces: '-1'"},
+        {"--threads 0", "--threads: '0'"},
+        {"--threads 1025", "--threads: '1025' is not a whole number from 1 to 1024"},
+        {"--seed 4294967296", "--seed: '4294967296'"},
+        {"--seed", "--seed: a number is missing"},
+        {"--out", "--out: a file name is missing"},
+        {"--out ''", "--out: ''"},
+        {"--out picture", "--out: 'picture' does not end in .png or .pfm"},
+        {"--out picture.jpg", "--out: 'picture.jpg'"},
+        {"--out folder.png/picture", "--out: 'folder.png/picture'"},
+        {"0 480", "WIDTH: '0'"},
+        {"640 0", "HEIGHT: '0'"},
+        {"-640 480", "WIDTH: '-640'"},
+        {"640", "HEIGHT: a number is missing"},
+        {"640 480 3", "'3' is one argument too many"},
+        {"wide 480", "WIDTH: 'wide'"},
+        {"99999999999 480", "WIDTH: '99999999999'"},
+        {"65536 65536", "65536 x 65536 is too large"},
+        {"67108864 67108864", "too large"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char arguments[300];
+        snprintf(arguments, sizeof arguments, "demo05 %s", cases[i][0]);
+        expect(2, cases[i][1], arguments);
+        const char *newline = strchr(said, '\n');
+        if (!newline || newline[1] != '\0')
+            fail_msg("%s: not one line: %s", arguments, said);
+        assert_memory_equal(said, "demo05: ", 8);
+    }
+    assert_false(exists("picture"));
+}
+
+/* ---- failures: one line, status 1, nothing lost ------------------------------------- */
+
+static void test_unwritable_places(void **state)
+{
+    (void)state;
+    static char path[6100] = "demo05 9 9 --samples 1 --quiet --out ";
+    assert_int_equal(mkdir("folder.png", 0777), 0);
+    write_text("file", "text");
+    expect(1, "cannot write 'nowhere/a.png': No such file",
+           "demo05 9 9 --samples 1 --quiet --out nowhere/a.png");
+    expect(1, "cannot write 'folder.png': Is a directory",
+           "demo05 9 9 --samples 1 --quiet --out folder.png");
+    expect(1, "cannot write 'file/a.png': Not a directory",
+           "demo05 9 9 --samples 1 --quiet --out file/a.png");
+    memset(path + strlen(path), 'a', 5000);
+    strcat(path, ".png");
+    expect(1, "File name too long", path);
+    if (geteuid() != 0) { /* root may write anywhere */
+        assert_int_equal(mkdir("locked", 0555), 0);
+        expect(1, "Permission denied",
+               "demo05 9 9 --samples 1 --quiet --out locked/a.png");
+    }
+}
+
+static void test_it_says_so_before_rendering(void **state)
+{
+    (void)state;
+    expect(1, "cannot write",
+           "demo07 8000 8000 --samples 1000 --no-window --out no/a.png");
+}
+
+static void test_full_disk(void **state)
+{
+    (void)state;
+    if (!exists("/dev/full")) {
+        print_message("no /dev/full here: not tested\n");
+        return;
+    }
+    assert_int_equal(symlink("/dev/full", "full.png"), 0);
+    assert_int_equal(symlink("/dev/full", "full.pfm"), 0);
+    expect(1, "cannot write 'full.png': No space left",
+           "demo05 20 20 --samples 1 --quiet --out full.png");
+    expect(1, "cannot write 'full.pfm': No space left",
+           "demo05 200 200 --samples 1 --quiet --out full.pfm");
+    struct stat info;
+    assert_int_equal(stat("full.png", &info), 0);
+    assert_true(S_ISCHR(info.st_mode));
+}
+
+static void test_a_file_limit_keeps_the_old_file(void **state)
+{
+    /* A disk that is full half-way, made by a limit on the size of files. */
+    (void)state;
+    write_text("old.pfm", "precious");
+    assert_int_equal(
+        run("trap '' XFSZ; ulimit -f 8; \"$DEMOS\"/demo05 200 200 --samples 1 "
+            "--quiet --out old.pfm"),
+        1);
+    assert_non_null(strstr(said, "cannot write 'old.pfm': File too large"));
+    unsigned char bytes[100];
+    assert_int_equal(read_file("old.pfm", bytes, sizeof bytes), 8);
+    assert_memory_equal(bytes, "precious", 8);
+    assert_int_equal(run("ls old.pfm.*"), 2);
+}
+
+static void test_an_existing_file_is_replaced_whole(void **state)
+{
+    (void)state;
+    write_text("again.png", "old");
+    write_text("again.png.part1", "somebody else's");
+    expect(0, "", "demo05 20 20 --samples 1 --quiet --out again.png");
+    unsigned char bytes[10];
+    assert_int_equal(read_file("again.png", bytes, 8), 8);
+    assert_memory_equal(bytes, "\x89PNG", 4);
+    assert_int_equal(read_file("again.png.part1", bytes, 8), 8);
+    assert_memory_equal(bytes, "somebody", 8);
+    assert_int_equal(run("ls again.png.part2"), 2);
+}
+
+static void test_full_standard_output(void **state)
+{
+    (void)state;
+    if (!exists("/dev/full")) {
+        print_message("no /dev/full here: not tested\n");
+        return;
+    }
+    assert_int_equal(
+        run("\"$DEMOS\"/demo05 9 9 --samples 1 --no-window --out o.png >/dev/full"), 1);
+    assert_non_null(strstr(said, "standard output"));
+    assert_true(exists("o.png"));
+}
+
+static void test_ctrl_c_saves_what_there_is(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        run("\"$DEMOS\"/demo07 200 150 --samples 1000000000 --no-window --out c.png"
+            " & sleep 0.3; kill -INT $!; wait $!"),
+        130);
+    assert_non_null(strstr(said, "wrote c.png (interrupted)"));
+    assert_true(exists("c.png"));
+    assert_int_equal(run("ls c.png.*"), 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_help),
+        cmocka_unit_test(test_all_seven_write_a_png_to_build),
+        cmocka_unit_test(test_pfm),
+        cmocka_unit_test(test_one_thread_or_two_the_same_file),
+        cmocka_unit_test(test_quiet_is_quiet),
+        cmocka_unit_test(test_without_a_display_it_says_so_and_goes_on),
+        cmocka_unit_test(test_plain_lines_when_piped),
+        cmocka_unit_test(test_bounces_where_there_are_none),
+        cmocka_unit_test(test_odd_numbers_of_threads_in_the_environment),
+        cmocka_unit_test(test_closed_pipe_does_not_hang),
+        cmocka_unit_test(test_wrong_use),
+        cmocka_unit_test(test_unwritable_places),
+        cmocka_unit_test(test_it_says_so_before_rendering),
+        cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_a_file_limit_keeps_the_old_file),
+        cmocka_unit_test(test_an_existing_file_is_replaced_whole),
+        cmocka_unit_test(test_full_standard_output),
+        cmocka_unit_test(test_ctrl_c_saves_what_there_is),
+    };
+    return cmocka_run_group_tests_name("the demos' command line", tests, set_up,
+                                       tear_down);
+}
