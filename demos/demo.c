@@ -373,6 +373,7 @@ static bool have_display(void)
         return false;
 #endif
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); /* Ctrl-C is ours */
+    SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
     SDL_SetMainReady();
     if (SDL_Init(SDL_INIT_VIDEO) != 0)
         return false;
@@ -522,7 +523,7 @@ static int render_and_save(run *r)
     }
     if (r->closed) {
         if (!r->s.quiet)
-            printf("%s: closed after %.2f s, nothing written\n", r->d->name, took);
+            printf("%s: closed after %.2f s, before the end\n", r->d->name, took);
         return DONE;
     }
     if (!save(r))
