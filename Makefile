@@ -7,6 +7,7 @@
 CXX     ?= c++
 PREFIX  ?= /usr/local
 CFLAGS  ?= -O3 -fno-math-errno
+BUILD   ?= build
 ARGS    ?=
 
 # -ffp-contract=off: the same bits everywhere; gcc would else contract a*b+c where it can.
@@ -19,6 +20,7 @@ SDL_LIBS = $(shell pkg-config --libs sdl2)
 CMOCKA   = $(shell pkg-config --cflags --libs cmocka)
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07
+HEADERS  = rt.h demos/demo.h demos/scene.h
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 .PHONY: help deps demos test golden check docs install clean $(DEMOS)
@@ -37,36 +39,36 @@ endif
 
 # ---------------------------------------------------------------------------- the demos
 
-demos: $(DEMOS:%=build/%) ## render all seven to build/, without windows
+demos: $(DEMOS:%=$(BUILD)/%) ## render all seven to build/, without windows
 	@for demo in $^; do $$demo --no-window $(ARGS) || exit; done
 
-$(DEMOS): %: build/%
-	build/$@ $(ARGS)
+$(DEMOS): %: $(BUILD)/%
+	$(BUILD)/$@ $(ARGS)
 
 .SECONDEXPANSION:
-$(DEMOS:%=build/%): build/%: $$(wildcard demos/$$*_*.c) build/demo.o demos/demo.h demos/scene.h rt.h
-	$(CC) $(FLAGS) $(OPENMP) -o $@ $< build/demo.o $(SDL_LIBS) -lm
+$(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/demo.o $(HEADERS)
+	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/demo.o $(SDL_LIBS) -lm
 
-build/demo.o: demos/demo.c demos/demo.h rt.h
+$(BUILD)/demo.o: demos/demo.c $(HEADERS)
 	@.ci/deps found $(CC) sdl2 stb
-	@mkdir -p build
+	@mkdir -p $(BUILD)
 	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) -c -o $@ $<
 
 # ---------------------------------------------------------------------------- the tests
 
-test: $(TESTS:%=build/tests/%) $(DEMOS:%=build/%) ## run the tests, seconds
-	@tests/run $(TESTS:%=build/tests/%)
+test: $(TESTS:%=$(BUILD)/tests/%) $(DEMOS:%=$(BUILD)/%) ## run the tests, seconds
+	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) tests/compile/run
 
-build/tests/%: tests/%.c tests/test.h demos/scene.h demos/demo.h rt.h $$(wildcard demos/demo*_*.c)
+$(BUILD)/tests/%: tests/%.c tests/test.h $(HEADERS) $(wildcard demos/demo0*.c)
 	@.ci/deps found $(CC) cmocka
-	@mkdir -p build/tests
-	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(CMOCKA) -lm
+	@mkdir -p $(BUILD)/tests
+	$(CC) $(FLAGS) -Wno-double-promotion $(OPENMP) -o $@ $< $(CMOCKA) -lm
 
-golden: $(TESTS:%=build/tests/%) ## record the small pictures that the tests compare with
+golden: $(TESTS:%=$(BUILD)/tests/%) ## record the small pictures that the tests compare with
 	GOLDEN=record tests/run $^
 
 check: test ## all that a maintainer runs before a release
-	@tests/check
+	@CC='$(CC)' tests/check
 
 # ---------------------------------------------------------------------------- the rest
 

@@ -253,7 +253,8 @@ static void encode(run *r)
     const rt_vec3 *pixels = r->image.pixels;
     const int width = r->image.width;
 #ifdef _OPENMP
-#pragma omp parallel for
+    const int threads = rt_thread_count((int)r->s.threads);
+#pragma omp parallel for num_threads(threads)
 #endif
     for (int y = 0; y < r->image.height; y++)
         for (int i = y * width; i < (y + 1) * width; i++) {

@@ -2,7 +2,9 @@
  *
  * Before  the light is right, but the picture is too dark: a screen does not show byte 128
  *         half as bright as byte 255, but about a fifth.
- * Now     the same light, encoded for the screen: clamp to 0..1, power 1/2.2, round.
+ * Now     the same light, encoded for the screen: clamp to 0..1, power 1/2.2, round. The
+ *         numbers in the image do not change, only the bytes that show them: with
+ *         --out light.pfm this demo and demo04 write the same light.
  * Run     make demo05 */
 #include "demo.h"
 #include "scene.h"
