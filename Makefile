@@ -72,8 +72,12 @@ check: test ## all that a maintainer runs before a release
 
 # ---------------------------------------------------------------------------- the rest
 
-docs: demos ## put excerpts and pictures into docs/
-	docs/excerpts.sh docs/*.md README.md
+docs: $(DEMOS:%=$(BUILD)/%) ## put excerpts and pictures into docs/ and README.md
+	@for demo in $(DEMOS); do \
+	    $(BUILD)/$$demo --no-window --quiet --out docs/images/$$demo.png || exit; \
+	done
+	$(BUILD)/demo07 --no-window --samples 256 --out docs/images/demo07-256.png
+	docs/excerpts.sh README.md docs/*.md
 
 install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR
 	mkdir -p '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'

@@ -312,10 +312,11 @@ typedef struct rt_camera {
 /* The ray from the camera through the point (x, y) of a film of width x height pixels;
  * (0,0) is the top left corner of the film, (0.5, 0.5) the centre of the top left pixel.
  *
- * With forward f, right r = f x up and u = r x f, all of unit length, the film stands at
- * distance 1 and is 2 tan(fov_y/2) high; pixels are square:
+ * With forward = the camera's direction, right = forward x up and top = right x forward,
+ * all made unit vectors, the film stands at distance 1 and is 2 tan(fov_y/2) high; pixels are
+ * square:
  *
- *     direction = f + 2 tan(fov_y/2) / height . ((x - width/2) r + (height/2 - y) u)
+ *     forward + 2 tan(fov_y/2) / height . ((x - width/2) right + (height/2 - y) top),
  *
  * normalised. y is subtracted because rows count downwards. Where up is parallel to the
  * direction, some perpendicular takes its place. A width or height below 1, an angle out of
@@ -326,13 +327,13 @@ static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int heigh
     const rt_vec3 zero = {0.0f, 0.0f, 0.0f};
     const rt_vec3 look =
         rt_same(camera->direction, zero) ? rt_vec(0.0f, 0.0f, -1.0f) : camera->direction;
-    const rt_vec3 top = rt_same(camera->up, zero) ? rt_vec(0.0f, 1.0f, 0.0f) : camera->up;
+    const rt_vec3 up = rt_same(camera->up, zero) ? rt_vec(0.0f, 1.0f, 0.0f) : camera->up;
     const float fov_y = camera->fov_y == 0.0f ? 45.0f : camera->fov_y;
     const rt_vec3 forward = rt_normalize(look);
-    rt_vec3 right = rt_normalize(rt_cross(forward, top)), up;
+    rt_vec3 right = rt_normalize(rt_cross(forward, up)), top;
     if (rt_same(right, zero))
-        rt_basis(forward, &right, &up);
-    up = rt_cross(right, forward);
+        rt_basis(forward, &right, &top);
+    top = rt_cross(right, forward);
 
     rt_ray ray;
     ray.origin = camera->position;
@@ -346,7 +347,7 @@ static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int heigh
     const float to_right = pixel * (x - 0.5f * (float)width);
     const float to_top = pixel * (0.5f * (float)height - y);
     ray.direction = rt_normalize(
-        rt_add(forward, rt_add(rt_scale(right, to_right), rt_scale(up, to_top))));
+        rt_add(forward, rt_add(rt_scale(right, to_right), rt_scale(top, to_top))));
     return ray;
 }
 
@@ -750,8 +751,8 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
  * product is its throughput. A mirror leaves no choice of direction: w = R.
  *
  * bounces is how often the ray may be sent on after its first hit, by mirror or diffusely;
- * 0 is direct light only, negative counts as 0. What would have come after is left out: the
- * picture is too dark by about rho^(bounces+1). A loop, not a recursion: any number of
+ * 0 is direct light only, negative counts as 0. What would have come after is left out: in a
+ * closed room of albedo rho the picture lacks the part rho^(bounces+1). A loop, not a recursion: any number of
  * bounces needs the same stack. Random numbers and the count of rays come from *rng.
  *
  * J. Kajiya, "The rendering equation", SIGGRAPH 1986. */
@@ -884,6 +885,8 @@ RTDEF const char *rt_status_text(rt_status status);
 #endif
 #ifdef _OPENMP
 #include <omp.h>
+#else
+#include <time.h>
 #endif
 
 RTDEF const char *rt_status_text(rt_status status)
@@ -985,12 +988,25 @@ static inline uint32_t rt__add_sample(rt_pixel_function *pixel, const void *cont
     return rng.rays;
 }
 
+/* Seconds since some moment. */
+static inline double rt__seconds(void)
+{
+#ifdef _OPENMP
+    return omp_get_wtime();
+#else
+    return (double)clock() / (double)CLOCKS_PER_SEC;
+#endif
+}
+
 /* One sample for every pixel, and again. The pixels are shared out among the threads in
- * bands, so that between two bands all threads rest and the caller can look at the picture;
- * in a band each thread takes the next 32 pixels that nobody has (schedule(dynamic)): a
+ * bands, so that between two bands all threads rest and the caller can look at the picture.
+ * In a band each thread takes the next 32 pixels that nobody has (schedule(dynamic)): a
  * fixed share each would leave one waiting for the other. Every pixel is written by one
  * thread, and everything else that is written is declared inside the loop: that is all it
- * takes for "#pragma omp parallel for" to be right, and -fopenmp for it to be obeyed. */
+ * takes for "#pragma omp parallel for" to be right, and -fopenmp for it to be obeyed.
+ *
+ * A band should last some 20 ms: short enough for a window to answer, long enough not to
+ * waste time on waiting for the slowest thread, above all where other programs run, too. */
 RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
                                  const rt_options *options, rt_image *image)
 {
@@ -1010,18 +1026,25 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
         return RT_BAD_THREADS;
 
     const int threads = rt_thread_count(o.threads);
-    const int band = 64 * 32 * threads;
     const int target = image->samples + samples;
     const double begun = image->samples + (double)image->done / count;
+    int band = 1024 * threads;
     while (image->samples < target) {
         const int first = image->done;
         const int last = count - first > band ? first + band : count;
+        const double start = rt__seconds();
         uint64_t rays = 0;
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 32) reduction(+ : rays)
 #endif
         for (int i = first; i < last; i++)
             rays += rt__add_sample(pixel, context, o.seed, image, i);
+        const double took = rt__seconds() - start;
+        if (took < 0.01 && band < count)
+            band = band > INT_MAX / 2 ? INT_MAX : 2 * band;
+        else if (took > 0.03 && band > 64)
+            band = band / 2;
+
         image->rays += rays;
         image->done = last;
         if (last == count) {

@@ -502,6 +502,11 @@ static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
     return r->d->pixel(&view, x, y, rng);
 }
 
+static const char *plural(long n)
+{
+    return n == 1 ? "" : "s";
+}
+
 static int render_and_save(run *r)
 {
     const rt_options options = {.samples = (int)r->s.samples,
@@ -509,10 +514,11 @@ static int render_and_save(run *r)
                                 .seed = (uint32_t)r->s.seed,
                                 .progress = progress,
                                 .user = r};
+    const int threads = rt_thread_count(options.threads);
     if (!r->s.quiet)
-        printf("%s: %ld x %ld, %ld samples, %ld bounces, %d threads\n", r->d->name,
-               r->s.width, r->s.height, r->s.samples, r->s.bounces,
-               rt_thread_count(options.threads));
+        printf("%s: %ld x %ld, %ld sample%s, %ld bounce%s, %d thread%s\n", r->d->name,
+               r->s.width, r->s.height, r->s.samples, plural(r->s.samples), r->s.bounces,
+               plural(r->s.bounces), threads, plural(threads));
     fflush(stdout);
     r->started = seconds();
     const rt_status status = rt_render_pixels(call_pixel, r, &options, &r->image);

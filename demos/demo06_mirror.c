@@ -2,7 +2,8 @@
  *
  * Before  every surface sends light in all directions.
  * Now     the sphere at the back sends on the ray itself: reflect it, and ask again what it
- *         meets. Two mirrors could go on for ever, so the ray is sent on 5 times at most.
+ *         meets. Two mirrors could go on for ever, so the ray is sent on 5 times at most;
+ *         with one mirror, as here, once is enough.
  * Run     make demo06 */
 #include "demo.h"
 #include "scene.h"

@@ -108,7 +108,7 @@ static void test_all_seven_write_a_png_to_build(void **state)
         char arguments[100], path[40];
         snprintf(arguments, sizeof arguments, "demo0%d 40 30 --samples 2 --no-window", i);
         snprintf(path, sizeof path, "build/demo0%d.png", i);
-        expect(0, "40 x 30, 2 samples|threads|rays per second|wrote build/demo0",
+        expect(0, "40 x 30, 2 samples|bounce|thread|rays per second|wrote build/demo0",
                arguments);
         assert_in_range(read_file(path, bytes, sizeof bytes), 100, 20000);
         assert_memory_equal(bytes, "\x89PNG\r\n\x1a\n", 8);
@@ -143,9 +143,9 @@ static void test_pfm(void **state)
 static void test_one_thread_or_two_the_same_file(void **state)
 {
     (void)state;
-    expect(0, "1 threads",
+    expect(0, "1 thread\n",
            "demo07 60 40 --samples 2 --no-window --threads 1 --out 1.png");
-    expect(0, "2 threads",
+    expect(0, "2 threads\n",
            "demo07 60 40 --samples 2 --no-window --threads 2 --out 2.png");
     assert_int_equal(run("cmp 1.png 2.png"), 0);
     expect(0, "", "demo07 60 40 --samples 2 --no-window --seed 1 --out 3.png");
