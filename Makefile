@@ -15,9 +15,9 @@ FLAGS    = -std=c99 $(CFLAGS) -ffp-contract=off $(WARNINGS)
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
 OPENMP   = $(shell .ci/deps openmp $(CC))
 STB      = $(shell .ci/deps stb $(CC))
-SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2))
-SDL_LIBS = $(shell pkg-config --libs sdl2)
-CMOCKA   = $(shell pkg-config --cflags --libs cmocka)
+SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 2>/dev/null))
+SDL_LIBS = $(shell pkg-config --libs sdl2 2>/dev/null)
+CMOCKA   = $(shell pkg-config --cflags --libs cmocka 2>/dev/null)
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07
 HEADERS  = rt.h demos/demo.h demos/scene.h
@@ -50,7 +50,7 @@ $(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/demo.o $(
 	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/demo.o $(SDL_LIBS) -lm
 
 $(BUILD)/demo.o: demos/demo.c $(HEADERS)
-	@.ci/deps found $(CC) sdl2 stb
+	@.ci/deps found $(CC) sdl2 stb openmp
 	@mkdir -p $(BUILD)
 	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) -c -o $@ $<
 
