@@ -45,9 +45,9 @@
  *             return perror("picture.ppm"), 1;
  *         fprintf(file, "P6 320 240 255\n");
  *         for (int i = 0; i < 320 * 240; i++) {
- *             putc(rt_encode(pixels[i].x, 2.2f), file);
- *             putc(rt_encode(pixels[i].y, 2.2f), file);
- *             putc(rt_encode(pixels[i].z, 2.2f), file);
+ *             putc(rt_encode(pixels[i].x, 2.2), file);
+ *             putc(rt_encode(pixels[i].y, 2.2), file);
+ *             putc(rt_encode(pixels[i].z, 2.2), file);
  *         }
  *         return fclose(file) != 0;
  *     }
@@ -659,14 +659,16 @@ static inline rt_vec3 rt_direct(const rt_scene *scene, const rt_hit *hit, rt_rng
  *
  * A screen makes light ~ byte^2.2, because the eye tells dark tones apart better than
  * bright ones and 256 steps have to do. Without the power 1/2.2 here, half the light would
- * be shown as a fifth of it. gamma 0 means 2.2; gamma 1 encodes linearly.
- * The clamp comes before the power (a negative base has no power 1/2.2) and is written so
- * that NaN becomes 0; infinity becomes 255. A gamma that is negative or NaN counts as 2.2. */
-static inline unsigned char rt_encode(float value, float gamma)
+ * be shown as a fifth of it. gamma 1 encodes linearly; 0 means 2.2, and so does a gamma that
+ * is negative or NaN.
+ * The clamp comes before the power (a negative base has no power 1/2.2) and is so written
+ * that NaN becomes 0; infinity becomes 255. In double, so that every libm gives the same
+ * byte: no float lies so close to the middle between two bytes that their pow could differ. */
+static inline unsigned char rt_encode(float value, double gamma)
 {
     const float clamped = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
-    const float exponent = 1.0f / (gamma > 0.0f ? gamma : 2.2f);
-    return (unsigned char)(255.0f * powf(clamped, exponent) + 0.5f);
+    const double exponent = 1.0 / (gamma > 0.0 ? gamma : 2.2);
+    return (unsigned char)(255.0 * pow((double)clamped, exponent) + 0.5);
 }
 
 /* =====================================================================================

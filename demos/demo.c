@@ -487,12 +487,12 @@ static void wait_until_closed(run *r)
 
 unsigned char demo_linear(float value)
 {
-    return rt_encode(value, 1.0f);
+    return rt_encode(value, 1.0);
 }
 
 unsigned char demo_gamma(float value)
 {
-    return rt_encode(value, 2.2f);
+    return rt_encode(value, 2.2);
 }
 
 static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)

@@ -9,14 +9,14 @@
 #include "demo.h"
 #include "scene.h"
 
-/* In this order: NaN is not greater than 0, so it becomes 0; nothing negative reaches powf;
+/* In this order: NaN is not greater than 0, so it becomes 0; nothing negative reaches pow;
  * nothing above 1 reaches the byte; and + 0.5 rounds instead of cutting off. */
 static unsigned char encode(float value)
 {
     float clamped = value > 0.0f ? value : 0.0f;
     if (clamped > 1.0f)
         clamped = 1.0f;
-    return (unsigned char)(255.0f * powf(clamped, 1.0f / 2.2f) + 0.5f);
+    return (unsigned char)(255.0 * pow((double)clamped, 1.0 / 2.2) + 0.5);
 }
 
 static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)

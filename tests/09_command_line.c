@@ -145,8 +145,7 @@ static void test_one_thread_or_two_the_same_file(void **state)
     (void)state;
     expect(0, "1 thread\n",
            "demo07 60 40 --samples 2 --no-window --threads 1 --out 1.png");
-    expect(0, "thread",
-           "demo07 60 40 --samples 2 --no-window --threads 2 --out 2.png");
+    expect(0, "thread", "demo07 60 40 --samples 2 --no-window --threads 2 --out 2.png");
     assert_int_equal(run("cmp 1.png 2.png"), 0);
     expect(0, "", "demo07 60 40 --samples 2 --no-window --seed 1 --out 3.png");
     assert_int_equal(run("cmp 1.png 3.png"), 1);
