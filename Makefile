@@ -17,7 +17,7 @@ OPENMP   = $(shell .ci/deps openmp $(CC))
 STB      = $(shell .ci/deps stb $(CC))
 SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 2>/dev/null))
 SDL_LIBS = $(shell pkg-config --libs sdl2 2>/dev/null)
-CMOCKA   = $(shell pkg-config --cflags --libs cmocka 2>/dev/null)
+CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07
 HEADERS  = rt.h demos/demo.h demos/scene.h
@@ -30,7 +30,7 @@ help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
-deps: ## install what is missing: SDL2, stb, cmocka, pkg-config, OpenMP
+deps: ## install what is missing: SDL2, stb, cmocka, cJSON, OpenMP
 	@.ci/deps install $(CC)
 
 ifneq (,$(filter deps,$(MAKECMDGOALS)))
@@ -56,11 +56,11 @@ $(BUILD)/demo.o: demos/demo.c $(HEADERS)
 
 # ---------------------------------------------------------------------------- the tests
 
-test: $(TESTS:%=$(BUILD)/tests/%) $(DEMOS:%=$(BUILD)/%) ## run the tests, seconds
+test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)/%) ## run the tests, seconds
 	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) tests/compile/run
 
-$(BUILD)/tests/%: tests/%.c tests/test.h $(HEADERS) $(wildcard demos/demo0*.c)
-	@.ci/deps found $(CC) cmocka
+$(BUILD)/tests/%: tests/%.c tests/test.h tests/scene_file.h $(HEADERS) $(wildcard demos/demo0*.c)
+	@.ci/deps found $(CC) cmocka libcjson
 	@mkdir -p $(BUILD)/tests
 	$(CC) $(FLAGS) -Wno-double-promotion $(OPENMP) -o $@ $< $(CMOCKA) -lm
 

@@ -119,18 +119,6 @@ static void test_demo_reflect_is_rt_reflect(void **state)
     }
 }
 
-static rt_image render_pass(uint32_t pass)
-{
-    return render_the_demo(160, 120, 2, pass);
-}
-
-static void test_demo_against_the_reference(void **state)
-{
-    /* Scene A: direct light and mirrors, by Mitsuba 3. */
-    (void)state;
-    check_against_reference(render_pass, "A_report_direct", 9e-6);
-}
-
 static void test_demo_picture(void **state)
 {
     (void)state;
@@ -148,7 +136,6 @@ int main(void)
         cmocka_unit_test(test_a_mirror_without_bounces_is_black),
         cmocka_unit_test(test_two_mirrors_end_after_the_bounces),
         cmocka_unit_test(test_demo_reflect_is_rt_reflect),
-        cmocka_unit_test(test_demo_against_the_reference),
         cmocka_unit_test(test_demo_picture),
     };
     return cmocka_run_group_tests_name("6 mirror", tests, NULL, NULL);

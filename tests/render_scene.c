@@ -1,0 +1,60 @@
+/* Render a scene file with rt.h, to hold it against another renderer:
+ *
+ *     build/tests/render_scene SCENE.json [--samples N] [--seed N] --out FILE.pfm
+ *
+ * The schema is in tests/references/scenes/SCHEMA.md. */
+#define RT_IMPLEMENTATION
+#include "scene_file.h"
+
+static bool parse_number(const char *text, long *value)
+{
+    if (!text || !*text || strspn(text, "0123456789") != strlen(text) || strlen(text) > 9)
+        return false;
+    *value = strtol(text, NULL, 10);
+    return true;
+}
+
+int main(int argc, char **argv)
+{
+    const char *path = NULL, *out = NULL;
+    long samples = 64, seed = 0;
+    for (int i = 1; i < argc; i++) {
+        const char *next = argv[i + 1];
+        if (strcmp(argv[i], "--out") == 0 && next)
+            out = argv[++i];
+        else if (strcmp(argv[i], "--samples") == 0 && parse_number(next, &samples) &&
+                 samples)
+            i++;
+        else if (strcmp(argv[i], "--seed") == 0 && parse_number(next, &seed))
+            i++;
+        else if (argv[i][0] != '-' && !path)
+            path = argv[i];
+        else
+            return fprintf(stderr, "render_scene: '%s' is not understood\n", argv[i]), 2;
+    }
+    if (!path || !out)
+        return fprintf(stderr, "usage: render_scene SCENE.json [--samples N] [--seed N] "
+                               "--out FILE.pfm\n"),
+               2;
+
+    static scene_file file;
+    int result = 1;
+    if (!read_scene(path, &file)) {
+        fprintf(stderr, "render_scene: '%s': %s\n", path, file.error);
+    } else {
+        rt_image image = {file.width, file.height, NULL, 0, 0, 0};
+        image.pixels =
+            calloc((size_t)file.width * (size_t)file.height, sizeof *image.pixels);
+        const rt_status status =
+            render_scene(&file, (int)samples, (uint32_t)seed, &image);
+        if (status != RT_OK)
+            fprintf(stderr, "render_scene: '%s': %s\n", path, rt_status_text(status));
+        else if (!write_pfm(out, &image))
+            perror(out);
+        else
+            result = 0;
+        free(image.pixels);
+    }
+    free_scene(&file);
+    return result;
+}
