@@ -91,7 +91,7 @@ static void test_basis_of_random_normals(void **state)
 {
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 2);
-    for (int i = 0; i < 100000; i++)
+    for (int i = 0; i < 2000000; i++)
         check_basis(random_direction(&rng));
 }
 
@@ -99,7 +99,7 @@ static void test_basis_near_the_poles(void **state)
 {
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 3);
-    for (int i = 0; i < 100000; i++) {
+    for (int i = 0; i < 1000000; i++) {
         const float x = uniform(&rng, -1e-3f, 1e-3f);
         const float y = uniform(&rng, -1e-3f, 1e-3f);
         check_basis(rt_normalize(rt_vec(x, y, -1)));
