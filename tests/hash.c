@@ -1,0 +1,69 @@
+/* Prints "demoNN hash" for the demo that DEMO names: 64 x 48 pixels, 4 samples, the FNV-1a hash
+ * of the bits of every float and of every byte. It must be the same for every compiler, level
+ * of optimisation, C library, processor and number of threads: tests/references/hashes.txt.
+ * Needs nothing but rt.h, so that it runs where there is no cmocka. */
+#include <stdio.h>
+#include <string.h>
+
+#define RT_IMPLEMENTATION
+#include "../demos/demo.h"
+
+enum { W = 64, H = 48 };
+
+static const demo *the_demo;
+
+static rt_vec3 pixel_of_the_demo(const void *view, float x, float y, rt_rng *rng)
+{
+    return the_demo->pixel(view, x, y, rng);
+}
+
+unsigned char demo_linear(float value)
+{
+    return rt_encode(value, 1.0);
+}
+
+unsigned char demo_gamma(float value)
+{
+    return rt_encode(value, 2.2);
+}
+
+static uint64_t hash_float(uint64_t hash, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, 4);
+    for (int shift = 0; shift < 32; shift += 8)
+        hash = (hash ^ (bits >> shift & 255)) * 1099511628211u;
+    return (hash ^ the_demo->encode(value)) * 1099511628211u;
+}
+
+/* The demo's main calls this. */
+int demo_main(int argc, char **argv, const demo *d)
+{
+    static rt_vec3 pixels[W * H];
+    const demo_view view = {W, H, d->bounces};
+    uint64_t first = 0;
+    (void)argc;
+    (void)argv;
+    the_demo = d;
+    for (int threads = 1; threads <= 8; threads++) {
+        rt_image image = {W, H, pixels, 0, 0, 0};
+        rt_options options = {4, 0, 0, 0, NULL, NULL};
+        options.threads = threads;
+        if (rt_render_pixels(pixel_of_the_demo, &view, &options, &image) != RT_OK)
+            return 1;
+        uint64_t hash = 14695981039346656037u;
+        for (int i = 0; i < W * H; i++) {
+            hash = hash_float(hash, pixels[i].x);
+            hash = hash_float(hash, pixels[i].y);
+            hash = hash_float(hash, pixels[i].z);
+        }
+        if (threads > 1 && hash != first)
+            return fprintf(stderr, "%s: %d threads, another hash\n", d->name, threads), 1;
+        first = hash;
+    }
+    printf("%s %08lx%08lx\n", d->name, (unsigned long)(first >> 32),
+           (unsigned long)(first & 0xffffffffu));
+    return 0;
+}
+
+#include DEMO
