@@ -343,9 +343,9 @@ static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int heigh
         return ray;
     float sine, cosine;
     rt_sincos(fov_y / 720.0f, &sine, &cosine);
-    const float pixel = 2.0f * sine / cosine / (float)height;
-    const float to_right = pixel * (x - 0.5f * (float)width);
-    const float to_top = pixel * (0.5f * (float)height - y);
+    const float size = 2.0f * sine / cosine / (float)height; /* of a pixel */
+    const float to_right = size * (x - 0.5f * (float)width);
+    const float to_top = size * (0.5f * (float)height - y);
     ray.direction = rt_normalize(
         rt_add(forward, rt_add(rt_scale(right, to_right), rt_scale(top, to_top))));
     return ray;
@@ -459,14 +459,14 @@ static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
  * boxes. Returns false, and leaves *hit alone, if there is none. */
 static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
 {
-    rt_hit nearest = {FLT_MAX, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, NULL};
+    rt_hit best = {FLT_MAX, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, NULL};
     for (int i = 0; i < scene->sphere_count; i++)
-        rt_hit_sphere(&scene->spheres[i], ray, nearest.t, &nearest);
+        rt_hit_sphere(&scene->spheres[i], ray, best.t, &best);
     for (int i = 0; i < scene->box_count; i++)
-        rt_hit_box(&scene->boxes[i], ray, nearest.t, &nearest);
-    if (!nearest.material)
+        rt_hit_box(&scene->boxes[i], ray, best.t, &best);
+    if (!best.material)
         return false;
-    *hit = nearest;
+    *hit = best;
     return true;
 }
 
@@ -762,20 +762,20 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
                                   int bounces, rt_rng *rng)
 {
     rt_ray ray = *camera_ray;
-    rt_vec3 radiance = rt_vec(0.0f, 0.0f, 0.0f);
+    rt_vec3 sum = rt_vec(0.0f, 0.0f, 0.0f);
     rt_vec3 throughput = rt_vec(1.0f, 1.0f, 1.0f);
     for (int bounce = 0;; bounce++) {
         rt_hit hit;
         rng->rays++;
         if (!rt_intersect(scene, &ray, &hit))
-            return rt_add(radiance, rt_mul(throughput, scene->background));
+            return rt_add(sum, rt_mul(throughput, scene->background));
 
         const rt_vec3 black = {0.0f, 0.0f, 0.0f};
         const rt_material *material = hit.material;
         if (!material->mirror)
-            radiance = rt_add(radiance, rt_mul(throughput, rt_direct(scene, &hit, rng)));
+            sum = rt_add(sum, rt_mul(throughput, rt_direct(scene, &hit, rng)));
         if (bounce >= bounces)
-            return radiance;
+            return sum;
 
         rt_vec3 direction;
         if (material->mirror) {
@@ -788,7 +788,7 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
         if (!material->mirror || !rt_same(material->albedo, black))
             throughput = rt_mul(throughput, material->albedo);
         if (rt_same(throughput, black))
-            return radiance; /* nothing that comes from here on would count */
+            return sum; /* nothing that comes from here on would count */
         ray.origin = rt_leave(hit.point, hit.normal, direction);
         ray.direction = direction;
     }
@@ -927,7 +927,7 @@ static inline bool rt__finite(rt_vec3 v)
 
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
 {
-    int nowhere;
+    int nowhere = 0;
     int *i = index ? index : &nowhere;
     *i = 0;
     if (!scene || scene->sphere_count < 0 ||
@@ -978,9 +978,8 @@ static inline uint32_t rt__add_sample(rt_pixel_function *pixel, const void *cont
     rt_rng rng = rt_rng_start((uint32_t)i, (uint32_t)image->samples, seed);
     const float dx = rt_random(&rng);
     const float dy = rt_random(&rng);
-    const float x = (float)(i % image->width) + dx;
-    const float y = (float)(i / image->width) + dy;
-    const rt_vec3 value = pixel(context, x, y, &rng);
+    const int column = i % image->width, row = i / image->width;
+    const rt_vec3 value = pixel(context, (float)column + dx, (float)row + dy, &rng);
     rt_vec3 *mean = &image->pixels[i];
     if (image->samples == 0)
         *mean = value;

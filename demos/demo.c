@@ -498,8 +498,7 @@ unsigned char demo_gamma(float value)
 static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
 {
     const run *r = context;
-    const demo_view view = {r->image.width, r->image.height, (int)r->s.bounces};
-    return r->d->pixel(&view, x, y, rng);
+    return r->d->pixel(&r->view, x, y, rng);
 }
 
 static const char *plural(long n)
@@ -571,6 +570,7 @@ int demo_main(int argc, char **argv, const demo *d)
     const size_t count = (size_t)r.s.width * (size_t)r.s.height;
     r.image.width = (int)r.s.width;
     r.image.height = (int)r.s.height;
+    r.view = (demo_view){r.image.width, r.image.height, (int)r.s.bounces};
     r.image.pixels = calloc(count, sizeof *r.image.pixels);
     r.bytes = malloc(count * 3);
     int result = FAILED;

@@ -66,4 +66,4 @@ int demo_main(int argc, char **argv, const demo *d)
     return 0;
 }
 
-#include DEMO
+#include DEMO /* NOLINT(bugprone-suspicious-include) */

@@ -18,7 +18,7 @@ int main(int argc, char **argv)
 {
     const char *path = NULL, *out = NULL;
     long samples = 64, seed = 0;
-    for (int i = 1; i < argc; i++) {
+    for (int i = 1; i < argc && argv[i]; i++) {
         const char *next = argv[i + 1];
         if (strcmp(argv[i], "--out") == 0 && next)
             out = argv[++i];

@@ -12,9 +12,11 @@
 #include "../rt.h"
 
 typedef struct scene_file {
-    rt_scene scene;
-    rt_camera camera;
+    rt_scene scene; /* of the shapes and the light below */
+    rt_sphere *spheres;
+    rt_box *boxes;
     rt_light light;
+    rt_camera camera;
     int width, height, bounces;
     bool mirror_direct; /* mirrors and direct light only: no diffuse bounce */
     char error[200];    /* what is wrong with the file, or "" */
@@ -99,10 +101,9 @@ static inline rt_material json_material(scene_file *file, const cJSON *shape)
 
 static inline void free_scene(scene_file *file)
 {
-    free((void *)(size_t)file->scene.spheres);
-    free((void *)(size_t)file->scene.boxes);
-    file->scene.spheres = NULL;
-    file->scene.boxes = NULL;
+    free(file->spheres);
+    free(file->boxes);
+    memset(file, 0, sizeof *file);
 }
 
 static inline void json_scene(scene_file *file, const cJSON *json)
@@ -133,25 +134,26 @@ static inline void json_scene(scene_file *file, const cJSON *json)
     file->scene.lights = &file->light;
     file->scene.light_count = 1;
 
-    rt_sphere *spheres =
-        calloc((size_t)cJSON_GetArraySize(sphere_list) + 1, sizeof *spheres);
-    rt_box *boxes = calloc((size_t)cJSON_GetArraySize(box_list) + 1, sizeof *boxes);
-    file->scene.spheres = spheres;
-    file->scene.boxes = boxes;
-    if (!spheres || !boxes) {
+    const size_t sphere_room = (size_t)cJSON_GetArraySize(sphere_list) + 1;
+    const size_t box_room = (size_t)cJSON_GetArraySize(box_list) + 1;
+    file->spheres = calloc(sphere_room, sizeof *file->spheres);
+    file->boxes = calloc(box_room, sizeof *file->boxes);
+    file->scene.spheres = file->spheres;
+    file->scene.boxes = file->boxes;
+    if (!file->spheres || !file->boxes) {
         scene_error(file, "scene", "not enough memory");
         return;
     }
     cJSON_ArrayForEach(shape, sphere_list)
     {
-        rt_sphere *sphere = &spheres[file->scene.sphere_count++];
+        rt_sphere *sphere = &file->spheres[file->scene.sphere_count++];
         sphere->center = json_vector(file, shape, "center");
         sphere->radius = (float)json_number(file, shape, "radius");
         sphere->material = json_material(file, shape);
     }
     cJSON_ArrayForEach(shape, box_list)
     {
-        rt_box *box = &boxes[file->scene.box_count++];
+        rt_box *box = &file->boxes[file->scene.box_count++];
         box->min = json_vector(file, shape, "min");
         box->max = json_vector(file, shape, "max");
         box->material = json_material(file, shape);
