@@ -222,6 +222,7 @@ static bool write_file(const demo *d, const char *path, const void *bytes, size_
 typedef struct run {
     const demo *d;
     settings s;
+    demo_view view;
     rt_image image;
     unsigned char
         *bytes;         /* the image encoded, 3 a pixel: what a PNG and the window show */
