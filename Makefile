@@ -11,13 +11,17 @@ BUILD   ?= build
 ARGS    ?=
 
 # -ffp-contract=off: the same bits everywhere; gcc would else contract a*b+c where it can.
-FLAGS    = -std=c99 $(CFLAGS) -ffp-contract=off $(WARNINGS)
+FLAGS    = -std=c99 $(CPPFLAGS) $(CFLAGS) -ffp-contract=off $(WARNINGS)
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
-OPENMP   = $(shell .ci/deps openmp $(CC))
-STB      = $(shell .ci/deps stb $(CC))
+OPENMP   = $(eval OPENMP := $(shell .ci/deps openmp '$(CC)'))$(OPENMP)
+STB      = $(shell .ci/deps stb '$(CC)')
 SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 2>/dev/null))
 SDL_LIBS = $(shell pkg-config --libs sdl2 2>/dev/null)
 CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
+
+# Threads that wait should sleep: else, where other programs run, they take the core from
+# those that they wait for.
+export OMP_WAIT_POLICY ?= passive
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07
 HEADERS  = rt.h demos/demo.h demos/scene.h
@@ -27,11 +31,11 @@ TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 help: ## this list
 	@echo '  make demo01 ... demo07  build and run a chapter; ARGS="1280 960 --samples 64"'
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
+	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
 deps: ## install what is missing: SDL2, stb, cmocka, cJSON, OpenMP
-	@.ci/deps install $(CC)
+	@.ci/deps install '$(CC)'
 
 ifneq (,$(filter deps,$(MAKECMDGOALS)))
 .NOTPARALLEL: # with -j, too, "deps" comes first
@@ -47,10 +51,10 @@ $(DEMOS): %: $(BUILD)/%
 
 .SECONDEXPANSION:
 $(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/demo.o $(HEADERS)
-	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/demo.o $(SDL_LIBS) -lm
+	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/demo.o $(LDFLAGS) $(SDL_LIBS) -lm
 
 $(BUILD)/demo.o: demos/demo.c $(HEADERS)
-	@.ci/deps found $(CC) sdl2 stb openmp
+	@.ci/deps found '$(CC)' sdl2 stb openmp
 	@mkdir -p $(BUILD)
 	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) -c -o $@ $<
 
@@ -60,15 +64,19 @@ test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)
 	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) tests/compile/run
 
 $(BUILD)/tests/%: tests/%.c tests/test.h tests/scene_file.h $(HEADERS) $(wildcard demos/demo0*.c)
-	@.ci/deps found $(CC) cmocka libcjson
+	@.ci/deps found '$(CC)' cmocka libcjson
 	@mkdir -p $(BUILD)/tests
-	$(CC) $(FLAGS) -Wno-double-promotion $(OPENMP) -o $@ $< $(CMOCKA) -lm
+	$(CC) $(FLAGS) -Wno-double-promotion $(OPENMP) -o $@ $< $(LDFLAGS) $(CMOCKA) -lm
 
-golden: $(TESTS:%=$(BUILD)/tests/%) ## record the small pictures that the tests compare with
-	GOLDEN=record tests/run $^
+golden: $(TESTS:%=$(BUILD)/tests/%) ## record the small pictures and hashes to compare with
+	-GOLDEN=record tests/run $^
+	@tests/check record
 
-check: test ## all that a maintainer runs before a release
-	@CC='$(CC)' tests/check
+check: test ## all that a maintainer runs before a release, minutes
+	@tests/check
+
+check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windows, or see tests/check
+	@tests/check $*
 
 # ---------------------------------------------------------------------------- the rest
 
@@ -80,12 +88,13 @@ docs: $(DEMOS:%=$(BUILD)/%) ## put excerpts and pictures into docs/ and README.m
 	docs/excerpts.sh README.md docs/*.md
 
 install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR
-	mkdir -p '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
-	cp rt.h '$(DESTDIR)$(PREFIX)/include/rt.h'
+	install -d -m 755 '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
+	install -m 644 rt.h '$(DESTDIR)$(PREFIX)/include/rt.h'
 	awk -v prefix='$(PREFIX)' '/^#define RT_VERSION_/ { v = v dot $$3; dot = "." } END { \
 	    printf "prefix=%s\n\nName: rt\nDescription: a small ray tracer in one C header\n", prefix; \
 	    printf "Version: %s\nCflags: -I$${prefix}/include\nLibs: -lm\n", v }' rt.h \
 	    > '$(DESTDIR)$(PREFIX)/share/pkgconfig/rt.pc'
+	chmod 644 '$(DESTDIR)$(PREFIX)/share/pkgconfig/rt.pc'
 
 clean: ## remove build/
-	rm -rf build
+	rm -rf $(BUILD)

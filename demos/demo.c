@@ -1,6 +1,6 @@
 /* What the seven demos share; see demo.h. In this order: the command line, files, the state
  * of a run, progress, the window, demo_main. No ray tracing: demo->pixel does that. */
-#define _POSIX_C_SOURCE 200809L /* isatty, fileno, stat, sigaction */
+#define _XOPEN_SOURCE 700 /* isatty, fileno, stat, sigaction, realpath */
 #define RT_IMPLEMENTATION
 #include "demo.h"
 
@@ -28,7 +28,7 @@ enum { DONE = 0, FAILED = 1, WRONG_USE = 2, INTERRUPTED = 130 };
 #define MAX_PIXELS 67108864 /* 8192 x 8192 */
 
 typedef struct settings {
-    long width, height, samples, bounces, threads, seed;
+    long long width, height, samples, bounces, threads, seed;
     const char *out;
     bool window, quiet, help;
 } settings;
@@ -43,29 +43,30 @@ static void print_help(const demo *d)
         "  --bounces N   how often a ray is sent on (default %d%s)\n"
         "  --threads N   threads, 1 to 1024 (default: all cores)\n"
         "  --seed N      another seed, another noise (default 0)\n"
-        "  --out FILE    where to write, .png or .pfm (default build/%s.png)\n"
+        "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
+        "                or %s.png where there is no folder build)\n"
         "  --no-window   only render and write\n"
         "  --quiet       print nothing but errors\n"
         "  --help        this\n\n"
         "In the window: s saves, Esc or q ends. Ctrl-C saves what there is and ends.\n",
         d->name, d->title, d->name, d->name, d->samples, d->bounces,
-        d->bounces == 0 ? "; this chapter has none yet" : "", d->name);
+        d->bounces == 0 ? "; this chapter has none yet" : "", d->name, d->name);
 }
 
 /* A whole number from low to high, digits only; otherwise one line that says so. */
-static bool parse_number(const demo *d, const char *name, const char *text, long low,
-                         long high, long *value)
+static bool parse_number(const demo *d, const char *name, const char *text, long long low,
+                         long long high, long long *value)
 {
     bool good = text && *text && strspn(text, "0123456789") == strlen(text);
     if (good) {
         errno = 0;
-        *value = strtol(text, NULL, 10);
+        *value = strtoll(text, NULL, 10);
         good = errno == 0 && *value >= low && *value <= high;
     }
     if (!good && !text)
         fprintf(stderr, "%s: %s: a number is missing\n", d->name, name);
     else if (!good)
-        fprintf(stderr, "%s: %s: '%s' is not a whole number from %ld to %ld\n", d->name,
+        fprintf(stderr, "%s: %s: '%s' is not a whole number from %lld to %lld\n", d->name,
                 name, text, low, high);
     return good;
 }
@@ -74,7 +75,7 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
 {
     const struct {
         const char *name;
-        long low, high, *value;
+        long long low, high, *value;
     } numbers[] = {
         {"--samples", 1, INT_MAX, &s->samples},
         {"--bounces", 0, INT_MAX, &s->bounces},
@@ -100,7 +101,7 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
             s->window = false;
         } else if (strcmp(arg, "--quiet") == 0) {
             s->quiet = true;
-        } else if (strcmp(arg, "--help") == 0) {
+        } else if (strcmp(arg, "--help") == 0 || strcmp(arg, "-h") == 0) {
             s->help = true;
         } else if (arg[0] == '-' && (arg[1] < '0' || arg[1] > '9')) {
             fprintf(stderr, "%s: unknown option '%s' (--help lists them)\n", d->name,
@@ -119,8 +120,8 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
     if (positional == 1)
         return fprintf(stderr, "%s: HEIGHT: a number is missing\n", d->name), false;
     if (s->width > MAX_PIXELS / s->height) {
-        fprintf(stderr, "%s: %ld x %ld is too large: at most %d pixels in all\n", d->name,
-                s->width, s->height, MAX_PIXELS);
+        fprintf(stderr, "%s: %lld x %lld is too large: at most %d pixels in all\n",
+                d->name, s->width, s->height, MAX_PIXELS);
         return false;
     }
     const char *dot = strrchr(s->out, '.');
@@ -143,14 +144,17 @@ static bool file_error(const demo *d, const char *path)
     return false;
 }
 
-/* A new file beside path, for rename; *name is to be freed. NULL, with errno, on failure. */
+/* A new file in the folder of path, for rename; *name is to be freed. NULL, with errno, on
+ * failure. */
 static FILE *open_beside(const char *path, char **name)
 {
-    const size_t size = strlen(path) + 16;
+    const char *slash = strrchr(path, '/');
+    const int folder = slash ? (int)(slash - path) + 1 : 0;
+    const size_t size = (size_t)folder + 32;
     FILE *file = NULL;
-    *name = malloc(size);
+    *name = strlen(path) < INT_MAX ? malloc(size) : NULL;
     for (int i = 1; *name && !file && i < 100; i++) {
-        snprintf(*name, size, "%s.part%d", path, i);
+        snprintf(*name, size, "%.*s.rt-%d.part", folder, path, i);
         file = fopen(*name, "wbx"); /* x: never an existing file */
         if (!file && errno != EEXIST)
             break;
@@ -188,9 +192,10 @@ static bool can_write(const demo *d, const char *path)
     return good;
 }
 
-static bool write_file(const demo *d, const char *path, const void *bytes, size_t size)
+static bool write_file(const demo *d, const char *given, const void *bytes, size_t size)
 {
-    char *name = NULL;
+    char *name = NULL, *real = realpath(given, NULL); /* behind a symbolic link */
+    const char *path = real ? real : given;
     const bool in_place = written_in_place(path);
     FILE *file = in_place ? fopen(path, "wb") : open_beside(path, &name);
     bool good = file != NULL;
@@ -204,14 +209,15 @@ static bool write_file(const demo *d, const char *path, const void *bytes, size_
         if (good && !in_place)
             good = rename(name, path) == 0;
         if (!good) {
-            file_error(d, path);
+            file_error(d, given);
             if (!in_place)
                 remove(name);
         }
     } else {
-        file_error(d, path);
+        file_error(d, given);
     }
     free(name);
+    free(real);
     return good;
 }
 
@@ -375,7 +381,6 @@ static bool have_display(void)
         return false;
 #endif
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); /* Ctrl-C is ours */
-    SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
     SDL_SetMainReady();
     if (SDL_Init(SDL_INIT_VIDEO) != 0)
         return false;
@@ -390,7 +395,11 @@ static void open_window(run *r)
     if (have_display()) {
         SDL_Rect desk = {0, 0, width, height};
         SDL_GetDisplayUsableBounds(0, &desk);
-        double zoom = 1.0; /* a picture larger than the desk is shown smaller */
+        double zoom =
+            1.0; /* small pictures are enlarged, large ones fitted to the desk */
+        while (width * zoom < 160.0 && height * zoom < 160.0)
+            zoom *= 2.0;
+        SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, zoom > 1.0 ? "nearest" : "linear");
         if (width * zoom > 0.9 * desk.w)
             zoom = 0.9 * desk.w / width;
         if (height * zoom > 0.9 * desk.h)
@@ -399,6 +408,8 @@ static void open_window(run *r)
             r->d->title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
             1 + (int)(width * zoom - 0.5), 1 + (int)(height * zoom - 0.5),
             SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+        if (r->window)
+            SDL_SetWindowMinimumSize(r->window, 160, 120);
         if (r->window)
             r->renderer = SDL_CreateRenderer(r->window, -1, 0);
         if (r->renderer)
@@ -434,7 +445,9 @@ static void draw(run *r, double part)
 
 static void handle(run *r, const SDL_Event *event)
 {
-    const SDL_Keycode key = event->type == SDL_KEYDOWN ? event->key.keysym.sym : 0;
+    const bool plain = event->type == SDL_KEYDOWN &&
+                       !(event->key.keysym.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI));
+    const SDL_Keycode key = plain ? event->key.keysym.sym : 0;
     if (event->type == SDL_QUIT || key == SDLK_ESCAPE || key == SDLK_q)
         r->closed = true;
     if (key == SDLK_s && event->key.repeat == 0 && save(r) && !r->s.quiet) {
@@ -502,7 +515,7 @@ static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
     return r->d->pixel(&r->view, x, y, rng);
 }
 
-static const char *plural(long n)
+static const char *plural(long long n)
 {
     return n == 1 ? "" : "s";
 }
@@ -516,7 +529,7 @@ static int render_and_save(run *r)
                                 .user = r};
     const int threads = rt_thread_count(options.threads);
     if (!r->s.quiet)
-        printf("%s: %ld x %ld, %ld sample%s, %ld bounce%s, %d thread%s\n", r->d->name,
+        printf("%s: %lld x %lld, %lld sample%s, %lld bounce%s, %d thread%s\n", r->d->name,
                r->s.width, r->s.height, r->s.samples, plural(r->s.samples), r->s.bounces,
                plural(r->s.bounces), threads, plural(threads));
     fflush(stdout);
@@ -542,13 +555,15 @@ static int render_and_save(run *r)
     fflush(stdout);
     if (r->window && status == RT_OK)
         wait_until_closed(r);
-    return status == RT_CANCELLED ? INTERRUPTED : DONE;
+    return interrupted ? INTERRUPTED : DONE;
 }
 
 int demo_main(int argc, char **argv, const demo *d)
 {
     char out[64];
-    snprintf(out, sizeof out, "build/%s.png", d->name);
+    struct stat info;
+    const bool at_the_top = stat("build", &info) == 0 && S_ISDIR(info.st_mode);
+    snprintf(out, sizeof out, "%s%s.png", at_the_top ? "build/" : "", d->name);
     run r = {.d = d,
              .s = {.width = 640,
                    .height = 480,
@@ -580,13 +595,14 @@ int demo_main(int argc, char **argv, const demo *d)
         action.sa_flags = (int)SA_RESETHAND;
         sigaction(SIGINT, &action, NULL);
         sigaction(SIGTERM, &action, NULL);
+        signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error like others, not the end */
         if (r.s.window)
             open_window(&r);
         result = render_and_save(&r);
         if (r.window)
             close_window(&r);
     } else {
-        fprintf(stderr, "%s: not enough memory for %ld x %ld pixels\n", d->name,
+        fprintf(stderr, "%s: not enough memory for %lld x %lld pixels\n", d->name,
                 r.s.width, r.s.height);
     }
     free(r.image.pixels);

@@ -14,7 +14,7 @@ static bool hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
 {
     const rt_dvec3 u = rt_to_double(ray->direction);
     const rt_dvec3 O = rt_to_double(sphere->center);
-    const rt_dvec3 f = rt_dmad(rt_to_double(ray->origin), -1.0, O);
+    const rt_dvec3 f = rt_dsub(rt_to_double(ray->origin), O);
     const double R = (double)sphere->radius;
 
     const double a = rt_ddot(u, u);

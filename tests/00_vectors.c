@@ -21,15 +21,14 @@ static void test_cross_is_right_handed(void **state)
     assert_vec(rt_cross(rt_vec(1, 2, 3), rt_vec(4, 5, 6)), -3, 6, -3, 0);
 }
 
-static void test_same_compares_every_component(void **state)
+static void test_is_zero_looks_at_every_component(void **state)
 {
     (void)state;
-    assert_true(rt_same(rt_vec(1, 2, 3), rt_vec(1, 2, 3)));
-    assert_true(rt_same(rt_vec(0, 0, 0), rt_vec(-0.0f, 0, 0)));
-    assert_false(rt_same(rt_vec(1, 2, 3), rt_vec(0, 2, 3)));
-    assert_false(rt_same(rt_vec(1, 2, 3), rt_vec(1, 0, 3)));
-    assert_false(rt_same(rt_vec(1, 2, 3), rt_vec(1, 2, 0)));
-    assert_false(rt_same(rt_vec(NAN, 0, 0), rt_vec(NAN, 0, 0)));
+    assert_true(rt_is_zero(rt_vec(0, -0.0f, 0)));
+    assert_false(rt_is_zero(rt_vec(1e-40f, 0, 0)));
+    assert_false(rt_is_zero(rt_vec(0, -1, 0)));
+    assert_false(rt_is_zero(rt_vec(0, 0, 1)));
+    assert_false(rt_is_zero(rt_vec(0, NAN, 0)));
 }
 
 static void test_normalize(void **state)
@@ -60,6 +59,7 @@ static void test_double_vectors(void **state)
     (void)state;
     const rt_dvec3 a = rt_dvec(1, 2, 3), b = rt_to_double(rt_vec(4, -5, 6));
     assert_close(rt_ddot(a, b), 12, 0);
+    assert_vec(rt_to_float(rt_dsub(a, b)), -3, 7, -3, 0);
     assert_vec(rt_to_float(rt_dmad(a, 2, b)), 9, -8, 15, 0);
     assert_vec(rt_to_float(rt_dscale(a, -2)), -2, -4, -6, 0);
 }
@@ -148,7 +148,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sums_and_products),
         cmocka_unit_test(test_cross_is_right_handed),
-        cmocka_unit_test(test_same_compares_every_component),
+        cmocka_unit_test(test_is_zero_looks_at_every_component),
         cmocka_unit_test(test_normalize),
         cmocka_unit_test(test_normalize_without_a_direction_is_zero),
         cmocka_unit_test(test_double_vectors),

@@ -191,7 +191,9 @@ static void check_radius(float radius, double tolerance)
             assert_untouched(hit);
             continue;
         }
-        const double error = fabs((double)((hit.t - t) / t));
+        /* relative to t, but for rays that start within 0.01 of the surface: there what
+         * is left is the rounding of |C - O|^2 - R^2 in double, below 1e-8 for R = 1e5 */
+        const double error = fabs((double)(hit.t - t)) / fmax((double)t, 0.01);
         assert_true(error <= tolerance);
         worst = error > worst ? error : worst;
         hits++;
@@ -223,6 +225,22 @@ static void test_radius_1e5_against_quad(void **state)
 {
     (void)state;
     check_radius(1e5f, 1e-6);
+}
+
+static void test_the_point_is_put_back_onto_the_sphere(void **state)
+{
+    /* From a million units away t is right to 0.03 only, but P is on the sphere. */
+    (void)state;
+    rt_rng rng = rt_rng_start(0, 0, 32);
+    const rt_sphere sphere = sphere_of(0, 0, 0, 1);
+    for (int i = 0; i < 10000; i++) {
+        const rt_vec3 origin = rt_scale(random_direction(&rng), 1e6f);
+        const rt_ray ray =
+            ray_of(origin, rt_scale(rt_sub(random_point(&rng, 0.5f), origin), 1e-6f));
+        rt_hit hit = untouched;
+        if (rt_hit_sphere(&sphere, &ray, FLT_MAX, &hit))
+            assert_close(rt_length(hit.point), 1, 2e-7);
+    }
 }
 
 static void test_walls_of_radius_1e5_are_flat_within_the_room(void **state)
@@ -417,6 +435,7 @@ int main(void)
         cmocka_unit_test(test_radius_1_against_quad),
         cmocka_unit_test(test_radius_940_against_quad),
         cmocka_unit_test(test_radius_1e5_against_quad),
+        cmocka_unit_test(test_the_point_is_put_back_onto_the_sphere),
         cmocka_unit_test(test_walls_of_radius_1e5_are_flat_within_the_room),
         cmocka_unit_test(test_bad_rays_and_spheres_miss),
         cmocka_unit_test(test_tiny_numbers_give_no_infinity),

@@ -46,7 +46,7 @@ static void test_out_of_range_is_clamped(void **state)
 static void test_gamma_that_is_no_gamma_is_2_2(void **state)
 {
     (void)state;
-    const double gammas[] = {0, -1, (double)NAN, -(double)INFINITY};
+    const double gammas[] = {0, -1, (double)NAN, (double)INFINITY};
     for (size_t i = 0; i < COUNT(gammas); i++)
         assert_int_equal(rt_encode(0.5f, gammas[i]), 186);
 }

@@ -30,7 +30,8 @@ static void test_random_is_uniform_and_below_one(void **state)
         rt_rng rng = rt_rng_start(i, 0, 0);
         for (int k = 0; k < 16; k++) {
             const float r = rt_random(&rng);
-            assert_true(r >= 0 && r < 1);
+            assert_true(r > 0 && r < 1);
+            assert_true(r * 8388608.0f - 0.5f == floorf(r * 8388608.0f)); /* exact */
             largest = r > largest ? r : largest;
             bins[(int)(r * BINS)]++;
         }
@@ -45,7 +46,7 @@ static void test_random_is_uniform_and_below_one(void **state)
 static void test_the_largest_random_number_is_below_one(void **state)
 {
     (void)state;
-    assert_true((float)(UINT32_MAX >> 8) * (1.0f / 16777216.0f) < 1.0f);
+    assert_true(((float)(UINT32_MAX >> 9) + 0.5f) * (1.0f / 8388608.0f) < 1.0f);
 }
 
 static void test_numbers_of_different_samples_are_independent(void **state)

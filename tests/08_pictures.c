@@ -201,7 +201,7 @@ static void test_more_samples_less_noise(void **state)
 
 typedef struct watch {
     int calls, stop_at; /* stop at this call; 0: never */
-    float last;
+    float last, first;
 } watch;
 
 static bool watch_progress(void *user, float part)
@@ -210,19 +210,74 @@ static bool watch_progress(void *user, float part)
     if (!(part > w->last && part <= 1))
         fail_msg("progress from %g to %g", (double)w->last, (double)part);
     w->last = part;
+    if (w->calls == 0)
+        w->first = part;
     return ++w->calls != w->stop_at;
 }
 
 static void test_progress_rises_to_one(void **state)
 {
     (void)state;
-    watch w = {0, 0, 0};
+    watch w = {0, 0, 0, 0};
     rt_options options = with(4, 2);
     options.progress = watch_progress;
     options.user = &w;
     rt_image image = render(160, 120, options);
     assert_true(w.calls >= 5); /* after every sample, and once within the first */
     assert_close(w.last, 1, 0);
+    w.calls = 0;
+    w.last = 0;
+    options.samples = 2; /* and again from 0 to 1 when more samples are added */
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image), RT_OK);
+    assert_close(w.last, 1, 0);
+    assert_true(w.first < 0.6f);
+    free(image.pixels);
+}
+
+static bool stop(void *user, float part)
+{
+    (void)user;
+    return part < 1;
+}
+
+static void test_a_finished_picture_is_not_cancelled(void **state)
+{
+    (void)state;
+    rt_options options = with(2, 2);
+    options.progress = stop;
+    rt_image image = new_image(60, 40);
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image), RT_OK);
+    assert_int_equal(image.samples, 2);
+    free(image.pixels);
+}
+
+static bool count_calls(void *user, float part)
+{
+    (void)part;
+    ++*(int *)user;
+    return true;
+}
+
+static rt_vec3 slow_pixel(const void *context, float x, float y, rt_rng *rng)
+{
+    double sum = 0;
+    (void)context;
+    for (int i = 0; i < 20000; i++)
+        sum += (double)rt_random(rng);
+    return rt_vec(x, y, (float)sum);
+}
+
+static void test_progress_is_called_often_for_slow_pixels(void **state)
+{
+    /* 3000 samples of some 0.05 ms: bands of 20 to 60 ms are more than a few, not all. */
+    (void)state;
+    int calls = 0;
+    rt_options options = with(1, 1);
+    rt_image image = new_image(100, 80);
+    options.progress = count_calls;
+    options.user = &calls;
+    assert_int_equal(rt_render_pixels(slow_pixel, NULL, &options, &image), RT_OK);
+    assert_in_range(calls, 4, 400);
     free(image.pixels);
 }
 
@@ -235,12 +290,12 @@ static void test_a_cancelled_picture_goes_on_to_the_same_bits(void **state)
     int stops = 0, within = 0;
     for (int calls = 1; image.samples < 5; calls++) {
         rt_options options = with(5 - image.samples, 1 + calls % 3);
-        watch w = {0, calls, 0};
+        watch w = {0, calls, 0, 0};
         options.progress = watch_progress;
         options.user = &w;
         const rt_status status =
             rt_render(&scene_indirect, &room_camera, &options, &image);
-        assert_int_equal(status, w.calls == calls ? RT_CANCELLED : RT_OK);
+        assert_int_equal(status, image.samples < 5 ? RT_CANCELLED : RT_OK);
         assert_in_range(image.done, 0, 160 * 120 - 1);
         stops += status == RT_CANCELLED;
         within += image.done > 0;
@@ -431,6 +486,8 @@ int main(void)
         cmocka_unit_test(test_no_light_is_a_black_picture),
         cmocka_unit_test(test_more_samples_less_noise),
         cmocka_unit_test(test_progress_rises_to_one),
+        cmocka_unit_test(test_a_finished_picture_is_not_cancelled),
+        cmocka_unit_test(test_progress_is_called_often_for_slow_pixels),
         cmocka_unit_test(test_a_cancelled_picture_goes_on_to_the_same_bits),
         cmocka_unit_test(test_null_is_refused),
         cmocka_unit_test(test_bad_sizes_are_refused),

@@ -213,12 +213,17 @@ static void test_odd_numbers_of_threads_in_the_environment(void **state)
     }
 }
 
-static void test_closed_pipe_does_not_hang(void **state)
+static void test_a_closed_pipe_is_an_error_and_the_picture_is_saved(void **state)
 {
     (void)state;
-    run("\"$DEMOS\"/demo07 60 40 --samples 4 --no-window --out h.png | head -n 1");
+    run("{ \"$DEMOS\"/demo07 60 40 --samples 64 --no-window --out h.png; echo $? "
+        ">status; } "
+        "| head -n 1");
     assert_non_null(strstr(said, "60 x 40"));
-    assert_int_equal(run("ls *.part*"), 2);
+    assert_int_equal(run("sleep 0.1; cat status"), 0);
+    assert_string_equal(said, "1\n");
+    assert_true(exists("h.png"));
+    assert_int_equal(run("ls .rt-*"), 2);
 }
 
 /* ---- wrong use: one line, status 2 -------------------------------------------------- */
@@ -335,21 +340,26 @@ static void test_a_file_limit_keeps_the_old_file(void **state)
     unsigned char bytes[100];
     assert_int_equal(read_file("old.pfm", bytes, sizeof bytes), 8);
     assert_memory_equal(bytes, "precious", 8);
-    assert_int_equal(run("ls old.pfm.*"), 2);
+    assert_int_equal(run("ls .rt-*"), 2);
 }
 
 static void test_an_existing_file_is_replaced_whole(void **state)
 {
     (void)state;
     write_text("again.png", "old");
-    write_text("again.png.part1", "somebody else's");
+    write_text(".rt-1.part", "somebody else's");
     expect(0, "", "demo05 20 20 --samples 1 --quiet --out again.png");
     unsigned char bytes[10];
     assert_int_equal(read_file("again.png", bytes, 8), 8);
     assert_memory_equal(bytes, "\x89PNG", 4);
-    assert_int_equal(read_file("again.png.part1", bytes, 8), 8);
+    assert_int_equal(read_file(".rt-1.part", bytes, 8), 8);
     assert_memory_equal(bytes, "somebody", 8);
-    assert_int_equal(run("ls again.png.part2"), 2);
+    assert_int_equal(run("ls .rt-2.part"), 2);
+    assert_int_equal(remove(".rt-1.part"), 0);
+    assert_int_equal(symlink("again.png", "link.png"), 0);
+    expect(0, "", "demo05 30 30 --samples 1 --quiet --out link.png");
+    assert_int_equal(run("test -L link.png && test -f again.png"),
+                     0); /* the link stays */
 }
 
 static void test_full_standard_output(void **state)
@@ -374,7 +384,7 @@ static void test_ctrl_c_saves_what_there_is(void **state)
         130);
     assert_non_null(strstr(said, "wrote c.png (interrupted)"));
     assert_true(exists("c.png"));
-    assert_int_equal(run("ls c.png.*"), 2);
+    assert_int_equal(run("ls .rt-*"), 2);
 }
 
 int main(void)
@@ -389,7 +399,7 @@ int main(void)
         cmocka_unit_test(test_plain_lines_when_piped),
         cmocka_unit_test(test_bounces_where_there_are_none),
         cmocka_unit_test(test_odd_numbers_of_threads_in_the_environment),
-        cmocka_unit_test(test_closed_pipe_does_not_hang),
+        cmocka_unit_test(test_a_closed_pipe_is_an_error_and_the_picture_is_saved),
         cmocka_unit_test(test_wrong_use),
         cmocka_unit_test(test_unwritable_places),
         cmocka_unit_test(test_it_says_so_before_rendering),

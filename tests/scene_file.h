@@ -127,6 +127,8 @@ static inline void json_scene(scene_file *file, const cJSON *json)
     file->camera.position = json_vector(file, camera, "position");
     file->camera.direction =
         rt_sub(json_vector(file, camera, "look_at"), file->camera.position);
+    if (rt_is_zero(file->camera.direction))
+        scene_error(file, "look_at", "must not be the position");
     file->camera.up = json_vector(file, camera, "up");
     file->camera.fov_y = (float)json_number(file, camera, "fov_y");
     file->light.position = json_vector(file, light, "position");
@@ -171,8 +173,10 @@ static inline bool read_scene(const char *path, scene_file *file)
         json_scene(file, json);
     else
         scene_error(file, "file", text ? "is not JSON" : "cannot be read");
-    if (!file->error[0] && rt_check_scene(&file->scene, NULL) != RT_OK)
-        scene_error(file, "scene", rt_status_text(rt_check_scene(&file->scene, NULL)));
+    const rt_status scene = rt_check_scene(&file->scene, NULL);
+    const rt_status view = rt_check_camera(&file->camera);
+    if (scene != RT_OK || view != RT_OK)
+        scene_error(file, "scene", rt_status_text(scene != RT_OK ? scene : view));
     cJSON_Delete(json);
     free(text);
     return !file->error[0];

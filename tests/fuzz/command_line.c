@@ -1,0 +1,28 @@
+/* libFuzzer: the bytes are a command line, its words separated by zeros. parse() accepts it
+ * with settings in range, or refuses it. */
+#include "../../demos/demo.c"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static char text[4096];
+    char *argv[66] = {"demo", NULL};
+    int argc = 1;
+    const demo d = {.name = "demo", .title = "fuzz"};
+    settings s = {.width = 640, .height = 480, .samples = 1, .out = "a.png"};
+    if (size == 0 || size >= sizeof text)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    for (size_t at = 0; at < size && argc < 65; at += strlen(text + at) + 1)
+        argv[argc++] = text + at;
+    argv[argc] = NULL;
+    if (!parse(&d, argc, argv, &s))
+        return 0;
+    if (s.width < 1 || s.height < 1 || s.width * s.height > MAX_PIXELS || s.samples < 1 ||
+        s.samples > INT_MAX || s.bounces < 0 || s.bounces > INT_MAX || s.threads < 0 ||
+        s.threads > 1024 || s.seed < 0 || s.seed > UINT32_MAX || strlen(s.out) < 4)
+        abort();
+    return 0;
+}
