@@ -185,8 +185,8 @@ static void check_radius(float radius, double tolerance)
         const bool is_hit = rt_hit_sphere(&sphere, &ray, FLT_MAX, &hit);
         const quad t = reference_t(&sphere, &ray);
         if (is_hit != (t > 0))
-            fail_msg("ray %d, radius %g: hit %d, but t = %Lg", i, (double)radius, is_hit,
-                     t);
+            fail_msg("ray %d, radius %g: hit %d, but t = %g", i, (double)radius, is_hit,
+                     (double)t);
         if (!is_hit) {
             assert_untouched(hit);
             continue;
