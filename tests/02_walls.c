@@ -147,6 +147,7 @@ static void test_lambert_from_behind_or_in_the_point_is_black(void **state)
     assert_vec(rt_lambert(one, up, rt_vec(0, 0, 0), one), 0, 0, 0, 0);
     assert_vec(rt_lambert(one, up, rt_vec(0, 1e-20f, 0), one), 0, 0, 0, 0);
     assert_vec(rt_lambert(one, up, rt_vec(0, NAN, 0), one), 0, 0, 0, 0);
+    assert_vec(rt_lambert(one, up, rt_vec(0, 1e30f, 0), one), 0, 0, 0, 0);
 }
 
 static void test_lambert_sends_no_more_than_it_gets(void **state)

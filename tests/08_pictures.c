@@ -333,8 +333,13 @@ static void test_null_is_refused(void **state)
     scene.lights = NULL;
     assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
     scene = scene_indirect;
-    scene.sphere_count = -1;
-    assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
+    int *const counts[] = {&scene.sphere_count, &scene.box_count, &scene.light_count};
+    for (size_t i = 0; i < COUNT(counts); i++) {
+        scene = scene_indirect;
+        *counts[i] = -1;
+        assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
+    }
+    assert_int_equal(rt_check_camera(NULL), RT_BAD_POINTER);
     assert_int_equal(rt_check_scene(NULL, NULL), RT_BAD_POINTER);
     free(image.pixels);
 }
@@ -443,9 +448,18 @@ static void test_check_scene_finds_the_offender(void **state)
     r.boxes[1].material.albedo.x = 1.001f;
     assert_int_equal(rt_check_scene(&r.scene, NULL), RT_BAD_BOX);
     r.boxes[1].material.albedo.x = 1;
-    r.boxes[0].min.z = r.boxes[0].max.z + 1;
-    assert_int_equal(rt_check_scene(&r.scene, &index), RT_BAD_BOX);
-    assert_int_equal(index, 0);
+    for (int k = 0; k < 3; k++) {
+        rt_vec3 *const min = &r.boxes[0].min, *const max = &r.boxes[0].max, good = *min;
+        *min = rt_vec(k == 0 ? max->x + 1 : min->x, k == 1 ? max->y + 1 : min->y,
+                      k == 2 ? max->z + 1 : min->z);
+        assert_int_equal(rt_check_scene(&r.scene, &index), RT_BAD_BOX);
+        assert_int_equal(index, 0);
+        *min = good;
+    }
+    r.lights[0].position.x = 1.1e15f; /* large, and larger than is allowed */
+    assert_int_equal(rt_check_scene(&r.scene, NULL), RT_BAD_LIGHT);
+    r.lights[0].position.x = -1e15f;
+    assert_int_equal(rt_check_scene(&r.scene, NULL), RT_OK);
 }
 
 static void test_every_status_has_a_text_of_its_own(void **state)
