@@ -63,7 +63,7 @@ $(BUILD)/demo.o: demos/demo.c $(HEADERS)
 test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)/%) ## run the tests, seconds
 	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) tests/compile/run
 
-$(BUILD)/tests/%: tests/%.c tests/test.h tests/scene_file.h $(HEADERS) $(wildcard demos/demo0*.c)
+$(BUILD)/tests/%: tests/%.c $(wildcard tests/*.h) $(HEADERS) $(wildcard demos/demo0*.c)
 	@.ci/deps found '$(CC)' cmocka libcjson
 	@mkdir -p $(BUILD)/tests
 	$(CC) $(FLAGS) -Wno-double-promotion $(OPENMP) -o $@ $< $(LDFLAGS) $(CMOCKA) -lm

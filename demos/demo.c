@@ -315,8 +315,24 @@ static bool save_png(run *r)
     return good;
 }
 
+/* How many pixels have a value that is NaN or infinite: a mistake in pixel(). */
+static int bad_pixels(const rt_image *image)
+{
+    int count = 0;
+    for (int i = 0; i < image->width * image->height; i++) {
+        const rt_vec3 v = image->pixels[i];
+        count +=
+            !(fabsf(v.x) <= FLT_MAX && fabsf(v.y) <= FLT_MAX && fabsf(v.z) <= FLT_MAX);
+    }
+    return count;
+}
+
 static bool save(run *r)
 {
+    const int bad = bad_pixels(&r->image);
+    if (bad > 0)
+        fprintf(stderr, "%s: warning: %d of %d pixels are NaN or infinite\n", r->d->name,
+                bad, r->image.width * r->image.height);
     return strcmp(strrchr(r->s.out, '.'), ".pfm") == 0 ? save_pfm(r) : save_png(r);
 }
 

@@ -1,0 +1,882 @@
+/* Eighty bad or odd inputs, each with what is documented to happen. The numbers are those of
+ * the table in docs/correctness.md. */
+#define _XOPEN_SOURCE 700 /* mkdtemp, popen, realpath, symlink, nftw */
+#include "../demos/scene.h"
+#include "programs.h"
+
+/* ---- helpers ------------------------------------------------------------------------ */
+
+static const float inf = INFINITY, nan_ = NAN;
+static const rt_sphere ball = {{0, 0, -5}, 1, {{1, 1, 1}, false}};
+static const rt_box cube = {{-1, -1, -6}, {1, 1, -4}, {{1, 1, 1}, false}};
+static const rt_vec3 zero = {0, 0, 0}, ahead = {0, 0, -1};
+
+static rt_hit hit; /* of the last question */
+
+static bool on_sphere(const rt_sphere *sphere, rt_vec3 origin, rt_vec3 direction)
+{
+    const rt_ray ray = ray_of(origin, direction);
+    hit = untouched;
+    const bool is_hit = rt_hit_sphere(sphere, &ray, FLT_MAX, &hit);
+    if (!is_hit)
+        assert_untouched(hit);
+    else
+        assert_true(hit.t > 0 && hit.t <= FLT_MAX &&
+                    fabsf(rt_length(hit.normal) - 1) < 1e-5f);
+    return is_hit;
+}
+
+static bool on_box(const rt_box *box, rt_vec3 origin, rt_vec3 direction)
+{
+    const rt_ray ray = ray_of(origin, direction);
+    hit = untouched;
+    const bool is_hit = rt_hit_box(box, &ray, FLT_MAX, &hit);
+    if (!is_hit)
+        assert_untouched(hit);
+    else
+        assert_true(hit.t > 0 && hit.t <= FLT_MAX && rt_length(hit.normal) == 1);
+    return is_hit;
+}
+
+static void both_miss(rt_vec3 origin, rt_vec3 direction)
+{
+    assert_false(on_sphere(&ball, origin, direction));
+    assert_false(on_box(&cube, origin, direction));
+}
+
+static rt_sphere sphere_of(float radius)
+{
+    rt_sphere sphere = ball;
+    sphere.radius = radius;
+    return sphere;
+}
+
+static rt_box box_of(rt_vec3 min, rt_vec3 max)
+{
+    rt_box box = cube;
+    box.min = min;
+    box.max = max;
+    return box;
+}
+
+/* rt_render of a 4 x 3 picture; the pixels stay in picture. */
+static rt_vec3 picture[12];
+
+static rt_status render(const rt_scene *scene, const rt_camera *camera,
+                        rt_options options)
+{
+    rt_image image = {4, 3, picture, 0, 0, 0};
+    if (options.samples == 0)
+        options.samples = 2;
+    return rt_render(scene, camera, &options, &image);
+}
+
+static rt_status render_scene(const rt_scene *scene)
+{
+    rt_options options = {0, 3, 0, 0, NULL, NULL};
+    const rt_status status = render(scene, &room_camera, options);
+    for (size_t i = 0; i < COUNT(picture) && status == RT_OK; i++)
+        assert_true(picture[i].x >= 0 && picture[i].x <= FLT_MAX && picture[i].y >= 0 &&
+                    picture[i].y <= FLT_MAX && picture[i].z >= 0 &&
+                    picture[i].z <= FLT_MAX);
+    return status;
+}
+
+static rt_status render_sphere(rt_sphere sphere)
+{
+    rt_scene scene = scene_walls;
+    scene.spheres = &sphere;
+    scene.sphere_count = 1;
+    return render_scene(&scene);
+}
+
+static rt_status render_light(float x, float y, float z, float intensity)
+{
+    const rt_light light = {{x, y, z}, {intensity, intensity, intensity}};
+    rt_scene scene = scene_indirect;
+    scene.lights = &light;
+    return render_scene(&scene);
+}
+
+static rt_status render_camera(rt_vec3 position, rt_vec3 direction, float fov_y)
+{
+    const rt_camera camera = {position, direction, {0, 1, 0}, fov_y};
+    rt_options options = {0, 0, 0, 0, NULL, NULL};
+    return render(&scene_indirect, &camera, options);
+}
+
+static rt_status render_options(int samples, int bounces, int threads)
+{
+    rt_options options = {samples, bounces, threads, 0, NULL, NULL};
+    return render(&scene_indirect, &room_camera, options);
+}
+
+static rt_status render_size(int width, int height)
+{
+    rt_image image = {width, height, picture, 0, 0, 0};
+    rt_options options = {1, 0, 0, 0, NULL, NULL};
+    return rt_render(&scene_indirect, &room_camera, &options, &image);
+}
+
+/* A command that must end like this; it finds the top folder in $TOP, the demos in $DEMOS. */
+static void shell(int status, const char *words, const char *command)
+{
+    const int actual = run(command);
+    if (actual != status || !strstr(said, words))
+        fail_msg("%s: status %d, expected %d; it said: %s", command, actual, status,
+                 said);
+}
+
+#define CC_STRICT                                                                        \
+    "${CC:-cc} -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion "       \
+    "-Werror "
+
+/* ---- 1 to 9: rays ------------------------------------------------------------------- */
+
+static void direction_zero(void)
+{
+    both_miss(zero, zero);
+    both_miss(rt_vec(0, 0, -5), zero);
+}
+
+static void origin_nan(void)
+{
+    both_miss(rt_vec(nan_, 0, 0), ahead);
+    both_miss(rt_vec(0, nan_, 0), ahead);
+    both_miss(rt_vec(0, 0, nan_), ahead);
+}
+
+static void direction_nan(void)
+{
+    both_miss(zero, rt_vec(nan_, 0, -1));
+    both_miss(zero, rt_vec(0, nan_, -1));
+    both_miss(zero, rt_vec(0, 0, nan_));
+}
+
+static void origin_infinite(void)
+{
+    both_miss(rt_vec(inf, 0, 0), rt_vec(-1, 0, 0));
+    both_miss(rt_vec(0, 0, inf), ahead);
+    both_miss(rt_vec(0, -inf, 0), rt_vec(0, 1, 0));
+}
+
+static void direction_infinite(void)
+{
+    both_miss(zero, rt_vec(0, 0, -inf));
+    both_miss(zero, rt_vec(inf, 0, -1));
+}
+
+static void direction_denormal(void)
+{
+    both_miss(zero, rt_vec(0, 0, -1e-45f)); /* t would be 4e45 */
+    both_miss(zero, rt_vec(1e-40f, 0, 0));
+}
+
+static void direction_minus_zero(void)
+{
+    assert_true(on_sphere(&ball, zero, rt_vec(-0.0f, -0.0f, -1)) && hit.t == 4);
+    assert_true(on_box(&cube, zero, rt_vec(-0.0f, -0.0f, -1)) && hit.t == 4);
+    assert_true(on_box(&cube, rt_vec(1, 1, 0), rt_vec(-0.0f, 0.0f, -1)) && hit.t == 4);
+}
+
+static void direction_of_any_length(void)
+{
+    const float lengths[] = {1e-3f, 1e3f};
+    for (size_t i = 0; i < COUNT(lengths); i++) {
+        assert_true(on_sphere(&ball, zero, rt_scale(ahead, lengths[i])));
+        assert_close(hit.t * lengths[i], 4, 1e-6);
+        assert_true(on_box(&cube, zero, rt_scale(ahead, lengths[i])));
+        assert_close(hit.t * lengths[i], 4, 1e-6);
+    }
+}
+
+static void direction_1e30(void)
+{
+    assert_true(on_sphere(&ball, zero, rt_vec(0, 0, -1e30f)));
+    assert_vec(hit.point, 0, 0, -4, 0);
+    assert_true(on_box(&cube, zero, rt_vec(0, 0, -1e30f)));
+    assert_vec(hit.point, 0, 0, -4, 0);
+}
+
+/* ---- 10 to 19: spheres -------------------------------------------------------------- */
+
+static void radius_zero(void)
+{
+    const rt_sphere sphere = sphere_of(0);
+    assert_false(on_sphere(&sphere, zero, ahead));
+    assert_int_equal(render_sphere(sphere), RT_BAD_SPHERE);
+}
+
+static void radius_negative(void)
+{
+    const rt_sphere sphere = sphere_of(-1);
+    assert_false(on_sphere(&sphere, zero, ahead));
+    assert_int_equal(render_sphere(sphere), RT_BAD_SPHERE);
+}
+
+static void radius_not_finite(void)
+{
+    const float bad[] = {nan_, inf, -inf};
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        const rt_sphere sphere = sphere_of(bad[i]);
+        assert_false(on_sphere(&sphere, zero, ahead));
+        assert_int_equal(render_sphere(sphere), RT_BAD_SPHERE);
+    }
+}
+
+static void origin_at_the_centre(void)
+{
+    assert_true(on_sphere(&ball, ball.center, rt_vec(0, 4, 0)));
+    assert_close(hit.t, 0.25, 0);
+}
+
+static void origin_on_the_sphere(void)
+{
+    assert_false(on_sphere(&ball, rt_vec(0, 0, -4), rt_vec(0, 0, 1)));
+    assert_true(on_sphere(&ball, rt_vec(0, 0, -4), ahead) && hit.t == 2);
+}
+
+static void tangent(void)
+{
+    assert_true(on_sphere(&ball, rt_vec(1, 0, 0), ahead));
+    assert_close(hit.t, 5, 0);
+    assert_vec(hit.normal, 1, 0, 0, 0);
+}
+
+static void just_beside(void)
+{
+    assert_false(on_sphere(&ball, rt_vec(nextafterf(1, 2), 0, 0), ahead));
+}
+
+static void giant_walls(void)
+{
+    const float radii[] = {1e5f, 1e7f};
+    for (size_t i = 0; i < COUNT(radii); i++) {
+        rt_sphere wall = sphere_of(radii[i]);
+        wall.center = rt_vec(-radii[i] - 50, 0, 0);
+        rt_rng rng = rt_rng_start(0, 0, 1);
+        for (int k = 0; k < 1000; k++) {
+            const rt_vec3 origin = random_point(&rng, 40.0f),
+                          target = random_point(&rng, 30.0f);
+            const rt_vec3 d = rt_sub(rt_vec(-51, target.y, target.z), origin);
+            assert_true(on_sphere(&wall, origin, d));
+            const double y = (double)hit.point.y, z = (double)hit.point.z;
+            const double r = (double)radii[i], x = (double)wall.center.x;
+            assert_close(hit.point.x, x + sqrt(r * r - y * y - z * z), 1e-4 * 120);
+        }
+    }
+}
+
+static void sphere_behind(void)
+{
+    assert_false(on_sphere(&ball, zero, rt_vec(0, 0, 1)));
+}
+
+static void two_in_one_place(void)
+{
+    const rt_sphere two[2] = {ball, ball};
+    rt_scene scene = scene_sphere;
+    scene.spheres = two;
+    scene.sphere_count = 2;
+    const rt_ray ray = ray_of(zero, ahead);
+    assert_true(rt_intersect(&scene, &ray, &hit));
+    assert_ptr_equal(hit.material, &two[0].material);
+}
+
+/* ---- 20 to 29: boxes ---------------------------------------------------------------- */
+
+static void box_inverted(void)
+{
+    const rt_box box = box_of(rt_vec(1, -1, -6), rt_vec(-1, 1, -4));
+    assert_false(on_box(&box, zero, ahead));
+    rt_scene scene = scene_cube;
+    scene.boxes = &box;
+    assert_int_equal(render_scene(&scene), RT_BAD_BOX);
+}
+
+static void box_flat(void)
+{
+    const rt_box box = box_of(rt_vec(-1, 0, -6), rt_vec(1, 0, -4));
+    assert_true(on_box(&box, rt_vec(0, 3, -5), rt_vec(0, -1, 0)) && hit.t == 3);
+    assert_vec(hit.normal, 0, 1, 0, 0);
+    assert_true(on_box(&box, zero, ahead) && hit.t == 4); /* edge on */
+    assert_vec(hit.normal, 0, 0, 1, 0);
+}
+
+static void box_point(void)
+{
+    const rt_box box = box_of(rt_vec(0, 0, -5), rt_vec(0, 0, -5));
+    assert_true(on_box(&box, zero, ahead) && hit.t == 5);
+    assert_false(on_box(&box, rt_vec(0, 1e-30f, 0), ahead));
+}
+
+static void along_a_face(void)
+{
+    assert_true(on_box(&cube, rt_vec(0, 1, -5), rt_vec(1, 0, 0)) && hit.t == 1);
+    assert_true(on_box(&cube, rt_vec(-3, 1, -5), rt_vec(1, 0, 0)) && hit.t == 2);
+}
+
+static void leaving_a_face(void)
+{
+    assert_false(on_box(&cube, rt_vec(0, 0, -4), rt_vec(0, 0, 1)));
+    assert_false(on_box(&cube, rt_vec(0, 0, -4), rt_vec(1, 0, 0.1f)));
+}
+
+static void inside_a_box(void)
+{
+    assert_true(on_box(&cube, rt_vec(0, 0, -5), rt_vec(0, 2, 0)) && hit.t == 0.5f);
+    assert_vec(hit.normal, 0, -1, 0, 0);
+}
+
+static void through_edge_and_corner(void)
+{
+    assert_true(on_box(&cube, rt_vec(2, 2, -3), rt_vec(-1, -1, -1)));
+    assert_vec(hit.normal, 1, 0, 0, 0);
+    assert_true(on_box(&cube, rt_vec(0, 2, -3), rt_vec(0, -1, -1)));
+    assert_vec(hit.normal, 0, 1, 0, 0);
+}
+
+static void through_both_corners(void)
+{
+    assert_true(on_box(&cube, rt_vec(-3, -3, -8), rt_vec(1, 1, 1)));
+    assert_vec(hit.point, -1, -1, -6, 0);
+}
+
+static void box_without_bounds(void)
+{
+    const rt_box box = box_of(rt_vec(-inf, -inf, -inf), rt_vec(inf, 0, inf));
+    assert_false(on_box(&box, rt_vec(0, 5, 0), rt_vec(0, -1, 0)));
+}
+
+static void box_nan(void)
+{
+    const rt_box boxes[] = {box_of(rt_vec(nan_, -1, -6), cube.max),
+                            box_of(cube.min, rt_vec(1, 1, nan_))};
+    for (size_t i = 0; i < COUNT(boxes); i++)
+        assert_false(on_box(&boxes[i], zero, ahead));
+}
+
+/* ---- 30 to 58: scenes and pictures -------------------------------------------------- */
+
+static void camera_inside_a_shape(void)
+{
+    rt_scene scene =
+        scene_indirect; /* black inside: the lamp is outside, and no infinity */
+    const rt_camera in_ball = {{-20, -4, 8}, {0, 0, -1}, {0, 1, 0}, 60};
+    const rt_camera in_cube = {{30, -10, -10}, {0, 0, -1}, {0, 1, 0}, 60};
+    rt_options options = {4, 3, 0, 0, NULL, NULL};
+    assert_int_equal(render(&scene, &in_ball, options), RT_OK);
+    assert_vec(picture[0], 0, 0, 0, 0);
+    assert_int_equal(render(&scene, &in_cube, options), RT_OK);
+    assert_vec(picture[0], 0, 0, 0, 0);
+    const rt_light lamp = {{-20, -4, 9}, {100, 100, 100}}; /* and lit without acne */
+    scene.lights = &lamp;
+    assert_int_equal(render(&scene, &in_ball, options), RT_OK);
+    for (size_t i = 0; i < COUNT(picture); i++)
+        assert_true(picture[i].x > 0.05f);
+}
+
+static void camera_at_the_light(void)
+{
+    assert_int_equal(render_camera(room_light.position, ahead, 40), RT_OK);
+    assert_true(picture[5].x > 0);
+}
+
+static void bad_angles(void)
+{
+    const float bad[] = {180, 360, -1, nan_, inf};
+    for (size_t i = 0; i < COUNT(bad); i++)
+        assert_int_equal(render_camera(zero, ahead, bad[i]), RT_BAD_CAMERA);
+    assert_int_equal(render_camera(zero, ahead, 0), RT_OK); /* 0 is the default: 45 */
+}
+
+static void camera_straight_up(void)
+{
+    assert_int_equal(render_camera(zero, rt_vec(0, 1, 0), 40), RT_OK);
+    assert_true(picture[5].x > 0);
+}
+
+static void camera_without_a_direction(void)
+{
+    assert_int_equal(render_camera(rt_vec(0, 0, 50), zero, 40), RT_OK); /* means -z */
+    assert_int_equal(render_camera(zero, rt_vec(0, nan_, 0), 40), RT_BAD_CAMERA);
+}
+
+static void light_on_a_surface(void)
+{
+    assert_int_equal(render_light(0, 40, 0, 1000), RT_OK);
+    assert_int_equal(render_light(-20, -4, 8, 1000), RT_OK);
+    assert_int_equal(render_light(-990, 0, 0, 1000), RT_OK);
+}
+
+static void light_in_the_point(void)
+{
+    const rt_vec3 one = {1, 1, 1}, up = {0, 1, 0};
+    assert_vec(rt_lambert(one, up, zero, one), 0, 0, 0, 0);
+}
+
+static void bad_intensities(void)
+{
+    const float bad[] = {-1, nan_, inf};
+    for (size_t i = 0; i < COUNT(bad); i++)
+        assert_int_equal(render_light(0, 30, 0, bad[i]), RT_BAD_LIGHT);
+}
+
+static void no_lights(void)
+{
+    rt_scene scene = scene_indirect;
+    scene.light_count = 0;
+    assert_int_equal(render_scene(&scene), RT_OK);
+    assert_vec(picture[5], 0, 0, 0, 0);
+}
+
+static void empty_scene(void)
+{
+    rt_scene scene = {0};
+    scene.background = rt_vec(0.5f, 0.25f, 1);
+    assert_int_equal(render_scene(&scene), RT_OK);
+    assert_vec(picture[5], 0.5, 0.25, 1, 0);
+}
+
+static void bad_albedos(void)
+{
+    const float bad[] = {1.001f, -0.001f, nan_};
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        rt_sphere sphere = ball;
+        sphere.material.albedo.y = bad[i];
+        assert_int_equal(render_sphere(sphere), RT_BAD_SPHERE);
+    }
+}
+
+static void facing_mirrors(void)
+{
+    const rt_box mirrors[2] = {{{-9, -1, -9}, {9, 0, 9}, {{1, 1, 1}, true}},
+                               {{-9, 4, -9}, {9, 5, 9}, {{1, 1, 1}, true}}};
+    rt_scene scene = {0};
+    scene.boxes = mirrors;
+    scene.box_count = 2;
+    const rt_ray ray = ray_of(rt_vec(0, 2, 0), rt_vec(0, 1, 0));
+    rt_rng rng = rt_rng_start(0, 0, 0);
+    rt_radiance(&scene, &ray, 1000000, &rng);
+    assert_int_equal(rng.rays, 1000001);
+}
+
+static void bounces_zero(void)
+{
+    assert_int_equal(render_options(1, 0, 0), RT_OK);
+}
+
+static void bounces_negative(void)
+{
+    assert_int_equal(render_options(1, -1, 0), RT_BAD_BOUNCES);
+}
+
+static void bounces_a_million(void)
+{
+    assert_int_equal(render_options(1, 1000000, 0), RT_OK);
+}
+
+static void samples_zero_or_negative(void)
+{
+    rt_image image = {4, 3, picture, 0, 0, 0};
+    assert_int_equal(rt_render(&scene_sphere, &room_camera, NULL, &image), RT_OK);
+    assert_int_equal(image.samples, 16); /* 0 is the default */
+    assert_int_equal(render_options(-1, 0, 0), RT_BAD_SAMPLES);
+    expect(2, "--samples: '0'", "demo01 --samples 0");
+}
+
+static void samples_1e9_and_ctrl_c(void)
+{
+    shell(130, "(interrupted)",
+          "\"$DEMOS\"/demo07 100 80 --samples 1000000000 --no-window --out a.png & sleep "
+          "0.3; "
+          "kill -INT $!; wait $!");
+    assert_true(exists("a.png"));
+}
+
+static void size_zero(void)
+{
+    assert_int_equal(render_size(0, 3), RT_BAD_SIZE);
+    assert_int_equal(render_size(4, 0), RT_BAD_SIZE);
+}
+
+static void size_negative(void)
+{
+    assert_int_equal(render_size(-4, 3), RT_BAD_SIZE);
+    expect(2, "WIDTH: '-4'", "demo01 -4 3");
+}
+
+static void size_too_large(void)
+{
+    assert_int_equal(render_size(65536, 65536), RT_BAD_SIZE);
+    assert_int_equal(render_size(INT_MAX, 2), RT_BAD_SIZE);
+    expect(2, "65536 x 65536 is too large", "demo01 65536 65536");
+}
+
+static void no_memory(void)
+{
+    shell(1, "not enough memory for 8000 x 8000 pixels",
+          "ulimit -v 600000; \"$DEMOS\"/demo01 8000 8000 --threads 1 --no-window --out "
+          "m.png");
+    assert_false(exists("m.png"));
+}
+
+static void one_pixel(void)
+{
+    assert_int_equal(render_size(1, 1), RT_OK);
+    assert_int_equal(render_size(1, 12), RT_OK);
+    assert_int_equal(render_size(12, 1), RT_OK);
+}
+
+static void ten_thousand_objects(void)
+{
+    static rt_sphere many[10000];
+    rt_rng rng = rt_rng_start(0, 0, 2);
+    for (size_t i = 0; i < COUNT(many); i++) {
+        many[i] = sphere_of(0.5f);
+        many[i].center = random_point(&rng, 50.0f);
+    }
+    rt_scene scene = scene_walls;
+    scene.spheres = many;
+    scene.sphere_count = (int)COUNT(many);
+    assert_int_equal(render_scene(&scene), RT_OK);
+}
+
+static void null_pointers(void)
+{
+    rt_image image = {4, 3, NULL, 0, 0, 0};
+    assert_int_equal(rt_render(NULL, &room_camera, NULL, &image), RT_BAD_POINTER);
+    assert_int_equal(rt_render(&scene_sphere, NULL, NULL, &image), RT_BAD_POINTER);
+    assert_int_equal(rt_render(&scene_sphere, &room_camera, NULL, NULL), RT_BAD_POINTER);
+    assert_int_equal(rt_render(&scene_sphere, &room_camera, NULL, &image),
+                     RT_BAD_POINTER);
+    assert_int_equal(rt_check_scene(NULL, NULL), RT_BAD_POINTER);
+}
+
+static void nothing_to_free(void)
+{
+    shell(1, "", "grep -nE 'malloc *\\(|calloc *\\(|free *\\(' \"$TOP\"/rt.h");
+}
+
+static void two_renders_at_once(void)
+{
+    static rt_vec3 pixels[3][40 * 30];
+    rt_status status[3];
+    rt_options options = {3, 3, 2, 0, NULL, NULL};
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(3)
+#endif
+    for (int i = 0; i < 3; i++) {
+        rt_image image = {40, 30, pixels[i], 0, 0, 0};
+        status[i] = rt_render(&scene_indirect, &room_camera, &options, &image);
+    }
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(status[i], RT_OK);
+        assert_memory_equal(pixels[i], pixels[0], sizeof pixels[0]);
+    }
+}
+
+static void french_locale(void)
+{
+    shell(1, "",
+          "LC_ALL=fr_FR.UTF-8 \"$DEMOS\"/demo01 20 20 --no-window --out l.png | "
+          "grep '[0-9],[0-9]'");
+}
+
+static void bad_pixels(void)
+{
+    assert_int_equal(rt_encode(nan_, 2.2), 0);
+    assert_int_equal(rt_encode(inf, 2.2), 255);
+    assert_int_equal(rt_encode(-1, 2.2), 0);
+}
+
+static void bad_gammas(void)
+{
+    assert_int_equal(rt_encode(0.5f, 0), 186);
+    assert_int_equal(rt_encode(0.5f, -1), 186);
+    assert_int_equal(rt_encode(0.5f, (double)nan_), 186);
+}
+
+/* ---- 59 to 66: files ---------------------------------------------------------------- */
+
+static void unwritable_folder(void)
+{
+    expect(1, "cannot write '/proc/a.png'", "demo01 9 9 --no-window --out /proc/a.png");
+    expect(1, "cannot write 'none/a.png'", "demo01 9 9 --no-window --out none/a.png");
+}
+
+static void folder_as_file(void)
+{
+    assert_true(mkdir("d.png", 0777) == 0);
+    expect(1, "cannot write 'd.png': Is a directory",
+           "demo01 9 9 --no-window --out d.png");
+}
+
+static void full_device(void)
+{
+    if (!exists("/dev/full")) {
+        print_message("note: no /dev/full here: a full disk is not tested\n");
+        return;
+    }
+    assert_int_equal(symlink("/dev/full", "f.png"), 0);
+    expect(1, "cannot write 'f.png': No space", "demo01 9 9 --no-window --out f.png");
+}
+
+static void full_half_way(void)
+{
+    write_text("h.pfm", "precious");
+    shell(1, "cannot write 'h.pfm': File too large",
+          "trap '' XFSZ; ulimit -f 8; \"$DEMOS\"/demo01 99 99 --no-window --out h.pfm");
+    shell(0, "precious", "cat h.pfm; ls -A .rt-* 2>/dev/null; true");
+    assert_null(strstr(said, ".rt-"));
+}
+
+static void odd_file_names(void)
+{
+    static char long_name[6000] = "demo01 9 9 --no-window --out ";
+    expect(2, "--out: ''", "demo01 9 9 --out ''");
+    memset(long_name + strlen(long_name), 'n', 5000);
+    strcat(long_name, ".png");
+    expect(1, "File name too long", long_name);
+    expect(0, "wrote a b.png", "demo01 9 9 --no-window --out 'a b.png'");
+    expect(0, "wrote -a.png", "demo01 9 9 --no-window --out -a.png");
+}
+
+static void unknown_ending(void)
+{
+    expect(2, "'a.jpg' does not end in .png or .pfm", "demo01 9 9 --out a.jpg");
+    assert_false(exists("a.jpg"));
+}
+
+static void closed_pipe(void)
+{
+    shell(0, "9 x 9", "\"$DEMOS\"/demo01 9 9 --no-window --out p.png | head -n 1");
+    assert_true(exists("p.png"));
+}
+
+static void file_kept_on_failure(void)
+{
+    write_text("k.png", "precious");
+    expect(2, "--samples", "demo01 9 9 --no-window --out k.png --samples x");
+    shell(0, "precious", "cat k.png");
+}
+
+/* ---- 67 to 80: programs ------------------------------------------------------------- */
+
+static void no_argument_and_help(void)
+{
+    expect(0, "640 x 480", "demo01");
+    expect(0, "--samples", "demo01 --help");
+    expect(0, "--samples", "demo01 -h");
+}
+
+static void unknown_option(void)
+{
+    expect(2, "unknown option '--colour'", "demo01 --colour");
+}
+
+static void bad_numbers(void)
+{
+    const char *const bad[] = {
+        "abc", "12x", "1e99", "''", "-5", "' 5'", "99999999999999999999"};
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        char arguments[100];
+        snprintf(arguments, sizeof arguments, "demo01 --samples %s", bad[i]);
+        expect(2, "is not a whole number", arguments);
+    }
+}
+
+static void option_without_value(void)
+{
+    expect(2, "--seed: a number is missing", "demo01 --seed");
+}
+
+static void odd_omp_num_threads(void)
+{
+    shell(0, "wrote", "OMP_NUM_THREADS=0 \"$DEMOS\"/demo01 9 9 --no-window --out o.png");
+    shell(0, "wrote",
+          "OMP_NUM_THREADS=1000 \"$DEMOS\"/demo01 9 9 --no-window --out o.png");
+}
+
+static void no_display(void)
+{
+    expect(0, "no window", "demo01 9 9 --out n.png");
+    assert_true(exists("n.png"));
+}
+
+static void window_closed_while_rendering(void)
+{
+    if (run("command -v Xvfb && command -v xdotool") != 0) {
+        print_message(
+            "note: no Xvfb and xdotool here: closing the window is not tested\n");
+        return;
+    }
+    shell(0, "before the end",
+          "Xvfb :96 -screen 0 800x600x24 >/dev/null 2>&1 & server=$!; sleep 1; "
+          "export DISPLAY=:96 ASAN_OPTIONS=detect_leaks=0; "
+          "\"$DEMOS\"/demo07 --samples 100000 --out x.png & demo=$!; sleep 1.5; "
+          "xdotool search --name Indirect windowfocus key q; wait $demo; status=$?; "
+          "kill $server; exit $status");
+    assert_false(exists("x.png"));
+}
+
+static void interrupted_by_a_signal(void)
+{
+    shell(
+        130, "(interrupted)",
+        "\"$DEMOS\"/demo07 100 80 --samples 1000000 --no-window --out s.png & sleep 0.3; "
+        "kill -TERM $!; wait $!");
+    shell(2, "", "ls .rt-*");
+    assert_true(exists("s.png"));
+}
+
+static void without_openmp(void)
+{
+    shell(0, "",
+          "cd \"$TOP\" && ${CC:-cc} -O1 -std=c99 -ffp-contract=off "
+          "-DDEMO='\"../demos/demo07_monte_carlo.c\"' -o $OLDPWD/hash tests/hash.c -lm");
+    shell(0, "", "./hash | grep -qxf - \"$TOP\"/tests/references/hashes.txt");
+}
+
+static void strict_c99(void)
+{
+    shell(0, "",
+          "cd \"$TOP\" && " CC_STRICT "-std=c99 -fsyntax-only tests/compile/two_?.c");
+}
+
+static void fast_math(void)
+{
+    shell(1, "fast-math",
+          "cd \"$TOP\" && ${CC:-cc} -ffast-math -fsyntax-only tests/compile/late.c");
+}
+
+static void macros_of_others(void)
+{
+    shell(0, "",
+          "cd \"$TOP\" && " CC_STRICT "-std=c99 -fsyntax-only tests/compile/private.c");
+}
+
+static void thirty_two_bits(void)
+{
+    if (run("cd \"$TOP\" && ${CC:-cc} -m32 -O1 -std=c99 "
+            "-DDEMO='\"../demos/demo07_monte_carlo.c\"' "
+            "-o $OLDPWD/hash32 tests/hash.c -lm") != 0) {
+        print_message("note: no -m32 here: 32 bits are not tested\n");
+        return;
+    }
+    shell(0, "demo07", "./hash32");
+}
+
+static void small_stacks(void)
+{
+    shell(0, "demo07", "ulimit -s 512; OMP_STACKSIZE=512k ./hash");
+    shell(0, "wrote",
+          "ulimit -s 512; OMP_STACKSIZE=512k \"$DEMOS\"/demo07 40 30 --samples 1 "
+          "--threads 4 --no-window --out t.png");
+}
+
+/* ---- the table ---------------------------------------------------------------------- */
+
+static const struct row {
+    const char *what;
+    void (*check)(void);
+} rows[] = {
+    {"1 direction (0,0,0): miss", direction_zero},
+    {"2 NaN in the origin: miss", origin_nan},
+    {"3 NaN in the direction: miss", direction_nan},
+    {"4 infinite origin: miss", origin_infinite},
+    {"5 infinite direction: miss", direction_infinite},
+    {"6 denormal direction: miss or finite t", direction_denormal},
+    {"7 direction -0 is 0", direction_minus_zero},
+    {"8 direction of length 1e-3, 1e3: same point", direction_of_any_length},
+    {"9 direction of length 1e30: no overflow", direction_1e30},
+    {"10 radius 0: miss, refused", radius_zero},
+    {"11 radius negative: miss, refused", radius_negative},
+    {"12 radius NaN or infinite: miss, refused", radius_not_finite},
+    {"13 origin at the centre: t = R/|u|", origin_at_the_centre},
+    {"14 origin on the sphere: far side or nothing", origin_on_the_sphere},
+    {"15 tangent: one hit", tangent},
+    {"16 one rounding beside: miss", just_beside},
+    {"17 walls of radius 1e5, 1e7: on the surface", giant_walls},
+    {"18 sphere behind: miss", sphere_behind},
+    {"19 two spheres in one place: the first", two_in_one_place},
+    {"20 box with min > max: miss, refused", box_inverted},
+    {"21 flat box: hit from above and edge on", box_flat},
+    {"22 box that is a point: hit", box_point},
+    {"23 along a face: hit", along_a_face},
+    {"24 leaving a face: miss", leaving_a_face},
+    {"25 inside a box: the way out", inside_a_box},
+    {"26 edge or corner: x before y before z", through_edge_and_corner},
+    {"27 diagonal through both corners: hit", through_both_corners},
+    {"28 box without bounds: miss", box_without_bounds},
+    {"29 NaN in a box: miss", box_nan},
+    {"30 camera inside a shape: sees its inside", camera_inside_a_shape},
+    {"31 camera at the light: a picture", camera_at_the_light},
+    {"32 fov 180, negative, NaN: refused; 0: 45", bad_angles},
+    {"33 camera straight up: a picture", camera_straight_up},
+    {"34 camera without direction: -z; NaN: refused", camera_without_a_direction},
+    {"35 light on or in a surface: finite", light_on_a_surface},
+    {"36 light in the very point: black", light_in_the_point},
+    {"37 intensity negative, NaN, infinite: refused", bad_intensities},
+    {"38 no light: black", no_lights},
+    {"39 empty scene: background", empty_scene},
+    {"40 albedo outside 0..1: refused", bad_albedos},
+    {"41 two facing mirrors: end after the bounces", facing_mirrors},
+    {"42 bounces 0: direct light", bounces_zero},
+    {"43 bounces negative: refused", bounces_negative},
+    {"44 bounces 1000000: ends", bounces_a_million},
+    {"45 samples 0: 16; negative: refused", samples_zero_or_negative},
+    {"46 samples 1e9: Ctrl-C works", samples_1e9_and_ctrl_c},
+    {"47 size 0: refused", size_zero},
+    {"48 size negative: refused", size_negative},
+    {"49 size that overflows: refused", size_too_large},
+    {"50 no memory: error, no file", no_memory},
+    {"51 1 x 1, 1 x N: a picture", one_pixel},
+    {"52 10000 objects: a picture", ten_thousand_objects},
+    {"53 NULL: refused", null_pointers},
+    {"54 nothing to free: rt.h allocates nothing", nothing_to_free},
+    {"55 renders at the same time: same bytes", two_renders_at_once},
+    {"56 French locale: decimal points", french_locale},
+    {"57 pixel NaN, infinite, negative: 0, 255, 0", bad_pixels},
+    {"58 gamma 0, negative, NaN: 2.2", bad_gammas},
+    {"59 unwritable folder: error", unwritable_folder},
+    {"60 folder as file: error", folder_as_file},
+    {"61 full device: error", full_device},
+    {"62 disk full half-way: error, old file intact", full_half_way},
+    {"63 file name empty or too long: error", odd_file_names},
+    {"64 unknown ending: wrong use", unknown_ending},
+    {"65 closed pipe: picture saved, no hang", closed_pipe},
+    {"66 existing file kept on failure", file_kept_on_failure},
+    {"67 no argument: defaults; --help", no_argument_and_help},
+    {"68 unknown option: wrong use", unknown_option},
+    {"69 bad numbers: wrong use", bad_numbers},
+    {"70 option without value: wrong use", option_without_value},
+    {"71 odd OMP_NUM_THREADS: a picture", odd_omp_num_threads},
+    {"72 no display: said, saved", no_display},
+    {"73 window closed while rendering: ends", window_closed_while_rendering},
+    {"74 signal while rendering: saved once, whole", interrupted_by_a_signal},
+    {"75 without OpenMP: the same bytes", without_openmp},
+    {"76 strict C99, two files: no warning", strict_c99},
+    {"77 -ffast-math: refused", fast_math},
+    {"78 macros min, max, near, far, PI, I: compiles", macros_of_others},
+    {"79 -m32: works", thirty_two_bits},
+    {"80 stacks of 512 kB: enough", small_stacks},
+};
+
+static void check_row(void **state)
+{
+    const struct row *row = *state;
+    row->check();
+}
+
+int main(void)
+{
+    struct CMUnitTest tests[COUNT(rows)];
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        if (atoi(rows[i].what) != (int)i + 1)
+            return fprintf(stderr, "row %d has another number\n", (int)i + 1), 1;
+        tests[i] = (struct CMUnitTest){rows[i].what, check_row, NULL, NULL, NULL};
+        tests[i].initial_state = (void *)(uintptr_t)&rows[i];
+    }
+    return _cmocka_run_group_tests("bad input", tests, COUNT(rows), set_up, tear_down);
+}
