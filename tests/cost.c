@@ -1,0 +1,27 @@
+/* What exactness costs: the best of some runs of the room, in seconds. tests/check cost builds
+ * it twice, with rt.h as it is and with the plain float sphere of a first lecture in its place
+ * (tests/plain_sphere.h), and compares. */
+#define RT_IMPLEMENTATION
+#include RT_H_TO_MEASURE
+
+#define RT_H
+#include "../demos/scene.h"
+
+#include <stdio.h>
+
+int main(void)
+{
+    static rt_vec3 pixels[160 * 120];
+    double best = 1e9;
+    for (int run = 0; run < 15; run++) {
+        rt_image image = {160, 120, pixels, 0, 0, 0};
+        rt_options options = {4, 5, 1, 0, NULL, NULL};
+        const double start = rt__seconds();
+        if (rt_render(&scene_indirect, &room_camera, &options, &image) != RT_OK)
+            return 1;
+        const double took = rt__seconds() - start;
+        best = took < best ? took : best;
+    }
+    printf("%.6f\n", best);
+    return 0;
+}
