@@ -515,9 +515,14 @@ static void size_too_large(void)
 
 static void no_memory(void)
 {
-    shell(1, "not enough memory for 8000 x 8000 pixels",
-          "ulimit -v 600000; \"$DEMOS\"/demo01 8000 8000 --threads 1 --no-window --out "
-          "m.png");
+    const char *command = "ulimit -v 600000; \"$DEMOS\"/demo01 8000 8000 --threads 1 "
+                          "--no-window --out m.png";
+    run(command);
+    if (strstr(said, "AddressSanitizer")) {
+        print_message("note: no memory limit under AddressSanitizer: not tested there\n");
+        return;
+    }
+    shell(1, "not enough memory for 8000 x 8000 pixels", command);
     assert_false(exists("m.png"));
 }
 
