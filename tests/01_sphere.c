@@ -354,6 +354,26 @@ static void test_camera_of_zeros_is_the_documented_default(void **state)
     assert_close(rt_length(a.direction), 1, 1e-6);
 }
 
+static void test_camera_without_up_takes_y(void **state)
+{
+    (void)state;
+    const rt_camera zero = {{0, 0, 0}, {3, -1, -2}, {0, 0, 0}, 50};
+    const rt_camera same = {{0, 0, 0}, {3, -1, -2}, {0, 1, 0}, 50};
+    const rt_vec3 a = rt_camera_ray(&zero, 30, 20, 3, 4).direction;
+    const rt_vec3 b = rt_camera_ray(&same, 30, 20, 3, 4).direction;
+    assert_vec(a, b.x, b.y, b.z, 0);
+}
+
+static void test_camera_of_small_angles_and_pictures(void **state)
+{
+    (void)state;
+    const rt_camera tele = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.5f};
+    const double half = 0.25 / 180 * 3.14159265;
+    assert_close(rt_camera_ray(&tele, 10, 10, 5, 0).direction.y, sin(half), 1e-7);
+    assert_close(rt_camera_ray(&tele, 1, 10, 0.5f, 0).direction.y, sin(half), 1e-7);
+    assert_close(rt_camera_ray(&tele, 10, 1, 5, 0).direction.y, sin(half), 1e-7);
+}
+
 static void test_camera_looking_straight_up(void **state)
 {
     (void)state;
@@ -443,6 +463,8 @@ int main(void)
         cmocka_unit_test(test_camera_corners),
         cmocka_unit_test(test_camera_right_is_forward_cross_up),
         cmocka_unit_test(test_camera_of_zeros_is_the_documented_default),
+        cmocka_unit_test(test_camera_without_up_takes_y),
+        cmocka_unit_test(test_camera_of_small_angles_and_pictures),
         cmocka_unit_test(test_camera_looking_straight_up),
         cmocka_unit_test(test_camera_out_of_range_hits_nothing),
         cmocka_unit_test(test_point_on_a_ray),

@@ -210,7 +210,12 @@ static void test_direct_light_adds_the_lights_that_are_seen(void **state)
     rt_rng rng = rt_rng_start(0, 0, 0);
     const double pi = 3.14159265;
     assert_vec(rt_direct(&scene, &hit, &rng), 0.5 / pi, 0.5 / pi * 0.6 / 25, 0, 1e-7);
-    assert_int_equal(rng.rays, 3); /* no shadow ray to the lamp below */
+    assert_int_equal(rng.rays, 3);                  /* no shadow ray to the lamp below */
+    const rt_light beside = {{5, 0, 0}, {9, 9, 9}}; /* in the plane of the floor */
+    scene.lights = &beside;
+    scene.light_count = 1;
+    assert_vec(rt_direct(&scene, &hit, &rng), 0, 0, 0, 0);
+    assert_int_equal(rng.rays, 3);
 }
 
 static void test_no_light_is_black(void **state)
