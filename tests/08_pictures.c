@@ -339,6 +339,13 @@ static void test_null_is_refused(void **state)
         *counts[i] = -1;
         assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
     }
+    for (int i = 0; i < 3; i++) { /* one object in an array that is not there */
+        rt_scene one = {0};
+        int index = 7;
+        *(i == 0 ? &one.sphere_count : i == 1 ? &one.box_count : &one.light_count) = 1;
+        assert_int_equal(rt_check_scene(&one, &index), RT_BAD_POINTER);
+        assert_int_equal(index, 0);
+    }
     assert_int_equal(rt_check_camera(NULL), RT_BAD_POINTER);
     assert_int_equal(rt_check_scene(NULL, NULL), RT_BAD_POINTER);
     free(image.pixels);
