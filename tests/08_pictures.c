@@ -469,6 +469,32 @@ static void test_check_scene_finds_the_offender(void **state)
     assert_int_equal(rt_check_scene(&r.scene, NULL), RT_OK);
 }
 
+static void test_check_accepts_what_is_at_the_limits(void **state)
+{
+    (void)state;
+    random_scene r;
+    rt_rng rng = rt_rng_start(0, 0, 33);
+    make_random_scene(&r, &rng);
+    r.boxes[0].min = r.boxes[0].max = rt_vec(1, 2, 3); /* a point */
+    r.spheres[0].radius = 1e15f;
+    r.spheres[0].center = rt_vec(-1e15f, 1e15f, 0);
+    r.spheres[0].material.albedo = rt_vec(0, 1, 0);
+    r.lights[0].intensity = rt_vec(0, 0.5f, 1e15f);
+    r.scene.background = rt_vec(0, 0.5f, 1e15f);
+    assert_int_equal(rt_check_scene(&r.scene, NULL), RT_OK);
+    r.spheres[0].material.albedo.y = 1.001f;
+    assert_int_equal(rt_check_scene(&r.scene, NULL), RT_BAD_SPHERE);
+
+    rt_camera camera = {{1e15f, 0, 0}, {0, 0, -1e15f}, {0, 1, 0}, 0};
+    assert_int_equal(rt_check_camera(&camera), RT_OK);
+    camera.fov_y = 0.5f;
+    assert_int_equal(rt_check_camera(&camera), RT_OK);
+    camera.fov_y = 179.9f;
+    assert_int_equal(rt_check_camera(&camera), RT_OK);
+    camera.up.y = 1.1e15f;
+    assert_int_equal(rt_check_camera(&camera), RT_BAD_CAMERA);
+}
+
 static void test_every_status_has_a_text_of_its_own(void **state)
 {
     (void)state;
@@ -515,6 +541,7 @@ int main(void)
         cmocka_unit_test(test_bad_options_are_refused),
         cmocka_unit_test(test_bad_cameras_are_refused),
         cmocka_unit_test(test_check_scene_finds_the_offender),
+        cmocka_unit_test(test_check_accepts_what_is_at_the_limits),
         cmocka_unit_test(test_every_status_has_a_text_of_its_own),
         cmocka_unit_test(test_thread_count),
     };

@@ -70,7 +70,8 @@ def run(job):
                 return None
             try:
                 if subprocess.run(["./test"], cwd=folder, capture_output=True, timeout=60,
-                                  env={**os.environ, "OMP_NUM_THREADS": "1"}).returncode != 0:
+                                  env={**os.environ, "OMP_NUM_THREADS": "2",
+                                       "OMP_WAIT_POLICY": "passive"}).returncode != 0:
                     return test
             except subprocess.TimeoutExpired:
                 return test
