@@ -355,8 +355,8 @@ static void test_bad_sizes_are_refused(void **state)
 {
     (void)state;
     rt_vec3 pixel = {7, 7, 7};
-    const int sizes[][2] = {{0, 5},  {5, 0},         {-1, 5},
-                            {5, -1}, {65536, 65536}, {INT_MAX, 2}};
+    const int sizes[][2] = {{0, 5},         {5, 0},         {-1, 5},     {5, -1},
+                            {65536, 65536}, {65537, 65536}, {INT_MAX, 2}};
     for (size_t i = 0; i < COUNT(sizes); i++) {
         rt_image image = {sizes[i][0], sizes[i][1], &pixel, 0, 0, 0};
         assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &image),
@@ -392,6 +392,15 @@ static void test_bad_options_are_refused(void **state)
                          cases[i].status);
         assert_vec(pixel, 7, 7, 7, 0);
     }
+}
+
+static void test_a_thousand_threads(void **state)
+{
+    (void)state;
+    rt_image one = render(3, 2, with(1, 1)), many = render(3, 2, with(1, 1024));
+    assert_true(same_pixels(&one, &many));
+    free(one.pixels);
+    free(many.pixels);
 }
 
 static void test_bad_cameras_are_refused(void **state)
@@ -539,6 +548,7 @@ int main(void)
         cmocka_unit_test(test_null_is_refused),
         cmocka_unit_test(test_bad_sizes_are_refused),
         cmocka_unit_test(test_bad_options_are_refused),
+        cmocka_unit_test(test_a_thousand_threads),
         cmocka_unit_test(test_bad_cameras_are_refused),
         cmocka_unit_test(test_check_scene_finds_the_offender),
         cmocka_unit_test(test_check_accepts_what_is_at_the_limits),
