@@ -175,16 +175,17 @@ static bool can_write(const demo *d, const char *path)
     struct stat info;
     if (written_in_place(path))
         return true;
-    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode)) {
+    if (stat(path, &info) == 0) {
         errno = EISDIR;
+        if (S_ISDIR(info.st_mode))
+            return file_error(d, path);
+    } else if (errno != ENOENT) { /* a name that is too long, a file as folder */
         return file_error(d, path);
     }
     char *name;
     FILE *file = open_beside(path, &name);
-    const bool good = file != NULL;
-    if (!good) {
-        file_error(d, path);
-    } else {
+    const bool good = file != NULL || file_error(d, path);
+    if (good) {
         fclose(file);
         remove(name);
     }
