@@ -234,6 +234,22 @@ static void test_progress_rises_to_one(void **state)
     free(image.pixels);
 }
 
+static void test_progress_counts_from_where_the_image_was(void **state)
+{
+    /* All but one pixel of the first of two samples are done: at its end we are at 0. */
+    (void)state;
+    watch w = {0, 0, 0, 0};
+    rt_options options = with(2, 1);
+    rt_image image = new_image(100, 100);
+    image.done = 100 * 100 - 1;
+    options.progress = watch_progress;
+    options.user = &w;
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image), RT_OK);
+    assert_in_range((int)(1000 * w.first), 0, 10);
+    assert_close(w.last, 1, 0);
+    free(image.pixels);
+}
+
 static bool stop(void *user, float part)
 {
     (void)user;
@@ -542,6 +558,7 @@ int main(void)
         cmocka_unit_test(test_no_light_is_a_black_picture),
         cmocka_unit_test(test_more_samples_less_noise),
         cmocka_unit_test(test_progress_rises_to_one),
+        cmocka_unit_test(test_progress_counts_from_where_the_image_was),
         cmocka_unit_test(test_a_finished_picture_is_not_cancelled),
         cmocka_unit_test(test_progress_is_called_often_for_slow_pixels),
         cmocka_unit_test(test_a_cancelled_picture_goes_on_to_the_same_bits),
