@@ -293,6 +293,9 @@ static void test_unbounded_boxes_miss(void **state)
     rt_hit hit;
     assert_false(hits(&below, rt_vec(1, 5, 2), rt_vec(0.5f, -1, 0), &hit));
     assert_false(hits(&below, rt_vec(1, -5, 2), rt_vec(0.5f, -1, 0), &hit));
+    const rt_box largest = box_of(-1, -1, -FLT_MAX, 1, 1, FLT_MAX); /* just bounded */
+    assert_true(hits(&largest, rt_vec(5, 0, 0), rt_vec(-1, 0, 0), &hit));
+    assert_close(hit.t, 4, 0);
     const rt_box open_below = box_of(-1, -inf, -1, 1, 1, 1);
     const rt_box open_above = box_of(-1, -1, -1, 1, inf, 1);
     assert_false(hits(&open_below, rt_vec(0, 0, 5), rt_vec(0, 0, -1), &hit));

@@ -49,6 +49,7 @@ static void test_gamma_that_is_no_gamma_is_2_2(void **state)
     const double gammas[] = {0, -1, (double)NAN, (double)INFINITY};
     for (size_t i = 0; i < COUNT(gammas); i++)
         assert_int_equal(rt_encode(0.5f, gammas[i]), 186);
+    assert_int_equal(rt_encode(0.5f, DBL_MAX), 255); /* 0.5^0 */
 }
 
 static void test_brighter_light_never_gives_a_smaller_byte(void **state)
