@@ -291,8 +291,8 @@ static void test_ctrl_c_saves_what_there_is(void **state)
 {
     (void)state;
     assert_int_equal(
-        run("\"$DEMOS\"/demo07 200 150 --samples 1000000000 --no-window --out c.png"
-            " & sleep 0.3; kill -INT $!; wait $!"),
+        run_and_signal("INT",
+                       "demo07 200 150 --samples 1000000000 --no-window --out c.png"),
         130);
     assert_non_null(strstr(said, "wrote c.png (interrupted)"));
     assert_true(exists("c.png"));

@@ -487,10 +487,11 @@ static void samples_zero_or_negative(void)
 
 static void samples_1e9_and_ctrl_c(void)
 {
-    shell(130, "(interrupted)",
-          "\"$DEMOS\"/demo07 100 80 --samples 1000000000 --no-window --out a.png & sleep "
-          "0.3; "
-          "kill -INT $!; wait $!");
+    assert_int_equal(
+        run_and_signal("INT",
+                       "demo07 100 80 --samples 1000000000 --no-window --out a.png"),
+        130);
+    assert_non_null(strstr(said, "(interrupted)"));
     assert_true(exists("a.png"));
 }
 
@@ -717,9 +718,14 @@ static void window_closed_while_rendering(void)
         return;
     }
     shell(0, "before the end",
-          "Xvfb :96 -screen 0 800x600x24 >/dev/null 2>&1 & server=$!; sleep 1; "
-          "export DISPLAY=:96 ASAN_OPTIONS=detect_leaks=0; "
-          "\"$DEMOS\"/demo07 --samples 100000 --out x.png & demo=$!; sleep 1.5; "
+          "until_ok() { for i in $(seq 100); do \"$@\" >/dev/null 2>&1 && return; sleep "
+          "0.05; "
+          "done; }; "
+          "Xvfb :96 -screen 0 800x600x24 >/dev/null 2>&1 & server=$!; "
+          "export DISPLAY=:96 ASAN_OPTIONS=detect_leaks=0; until_ok xdotool "
+          "getdisplaygeometry; "
+          "\"$DEMOS\"/demo07 --samples 100000 --out x.png & demo=$!; "
+          "until_ok xdotool search --name Indirect; sleep 0.2; "
           "xdotool search --name Indirect windowfocus key q; wait $demo; status=$?; "
           "kill $server; exit $status");
     assert_false(exists("x.png"));
@@ -727,10 +733,10 @@ static void window_closed_while_rendering(void)
 
 static void interrupted_by_a_signal(void)
 {
-    shell(
-        130, "(interrupted)",
-        "\"$DEMOS\"/demo07 100 80 --samples 1000000 --no-window --out s.png & sleep 0.3; "
-        "kill -TERM $!; wait $!");
+    assert_int_equal(
+        run_and_signal("TERM", "demo07 100 80 --samples 1000000 --no-window --out s.png"),
+        130);
+    assert_non_null(strstr(said, "(interrupted)"));
     shell(2, "", "ls .rt-*");
     assert_true(exists("s.png"));
 }

@@ -40,6 +40,19 @@ static inline void expect(int status, const char *words, const char *arguments)
             fail_msg("%s: no '%s' in: %s", arguments, word, said);
 }
 
+/* Start a demo, send it the signal as soon as it renders, and return its exit status. */
+static inline int run_and_signal(const char *name, const char *arguments)
+{
+    char command[1000];
+    snprintf(
+        command, sizeof command,
+        "\"$DEMOS\"/%s >log.txt 2>&1 & demo=$!; "
+        "for i in $(seq 200); do grep -q bounces log.txt && break; sleep 0.05; done; "
+        "sleep 0.1; kill -%s $demo; wait $demo; status=$?; cat log.txt; exit $status",
+        arguments, name);
+    return run(command);
+}
+
 static inline bool exists(const char *path)
 {
     struct stat info;
