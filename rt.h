@@ -894,8 +894,8 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index);
  * 180). */
 RTDEF rt_status rt_check_camera(const rt_camera *camera);
 
-/* The number of threads that rt_render uses for options->threads = wanted: 1 without
- * OpenMP, and for a number that rt_render refuses. */
+/* The number of threads that rt_render uses for options->threads = wanted; always 1 without
+ * OpenMP. What rt_render refuses counts as the nearest that it takes, 1 or 1024. */
 RTDEF int rt_thread_count(int wanted);
 
 /* What a status means, in English, without a full stop. Never NULL. */

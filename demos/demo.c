@@ -231,13 +231,12 @@ typedef struct run {
     settings s;
     demo_view view;
     rt_image image;
-    unsigned char
-        *bytes;         /* the image encoded, 3 a pixel: what a PNG and the window show */
-    double started;     /* in seconds, like the others */
-    double line_due;    /* when the progress line may be printed again */
-    int quarters;       /* how many of the plain lines were printed */
-    double draw_due;    /* when the window may be drawn again */
-    SDL_Window *window; /* NULL: none */
+    unsigned char *bytes; /* the image encoded, 3 a pixel, for PNG and window */
+    double started;       /* in seconds, like the others */
+    double line_due;      /* when the progress line may be printed again */
+    int quarters;         /* how many of the plain lines were printed */
+    double draw_due;      /* when the window may be drawn again */
+    SDL_Window *window;   /* NULL: none */
     SDL_Renderer *renderer;
     SDL_Texture *texture;
     bool closed; /* by Esc, q or the window's button */
@@ -412,8 +411,8 @@ static void open_window(run *r)
     if (have_display()) {
         SDL_Rect desk = {0, 0, width, height};
         SDL_GetDisplayUsableBounds(0, &desk);
-        double zoom =
-            1.0; /* small pictures are enlarged, large ones fitted to the desk */
+        /* small pictures are enlarged, large ones fitted to the desk */
+        double zoom = 1.0;
         while (width * zoom < 160.0 && height * zoom < 160.0)
             zoom *= 2.0;
         SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, zoom > 1.0 ? "nearest" : "linear");
