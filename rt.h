@@ -122,6 +122,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 #ifndef __cplusplus
 #include <stdbool.h>
 #endif
@@ -131,6 +132,12 @@
 #endif
 #ifdef __clang__
 #pragma STDC FP_CONTRACT OFF /* undone at the end of the header; gcc needs the flag */
+#endif
+
+#ifdef __GNUC__ /* for the few functions that must be inlined to be fast */
+#define RT__INLINE static inline __attribute__((always_inline))
+#else
+#define RT__INLINE static inline
 #endif
 
 #ifndef RTDEF
@@ -322,6 +329,54 @@ typedef struct rt_camera {
                           0 means 45 */
 } rt_camera;
 
+/* The film of a camera: what all rays of one picture have in common. */
+typedef struct rt__film {
+    rt_vec3 position, forward, right, top; /* unit vectors; forward (0,0,0): no film */
+    float half_width, half_height;         /* in pixels */
+    float size;                            /* of a pixel, at distance 1 */
+} rt__film;
+
+static inline rt__film rt__film_of(const rt_camera *camera, int width, int height)
+{
+    rt__film film;
+    const float fov_y = camera->fov_y == 0.0f ? 45.0f : camera->fov_y;
+    const rt_vec3 up =
+        rt_is_zero(camera->up) ? rt_vec(0.0f, 1.0f, 0.0f) : rt_normalize(camera->up);
+    film.position = camera->position;
+    film.forward = rt_is_zero(camera->direction) ? rt_vec(0.0f, 0.0f, -1.0f)
+                                                 : rt_normalize(camera->direction);
+    film.right = rt_normalize(rt_cross(film.forward, up));
+    if (rt_is_zero(film.right))
+        rt_basis(film.forward, &film.right, &film.top);
+    film.top = rt_cross(film.right, film.forward);
+    film.half_width = 0.5f * (float)width;
+    film.half_height = 0.5f * (float)height;
+    film.size = 0.0f;
+    if (!(fov_y > 0.0f && fov_y < 180.0f && width > 0 && height > 0)) {
+        film.forward = rt_vec(0.0f, 0.0f, 0.0f);
+        return film;
+    }
+    float sine, cosine;
+    rt_sincos(fov_y / 720.0f, &sine, &cosine);
+    film.size = 2.0f * sine / cosine / (float)height;
+    return film;
+}
+
+static inline rt_ray rt__film_ray(const rt__film *film, float x, float y)
+{
+    rt_ray ray;
+    ray.origin = film->position;
+    ray.direction = film->forward;
+    if (rt_is_zero(film->forward))
+        return ray;
+    const float to_right = film->size * (x - film->half_width);
+    const float to_top = film->size * (film->half_height - y);
+    ray.direction =
+        rt_normalize(rt_add(film->forward, rt_add(rt_scale(film->right, to_right),
+                                                  rt_scale(film->top, to_top))));
+    return ray;
+}
+
 /* The ray from the camera through the point (x, y) of a film of width x height pixels;
  * (0,0) is the top left corner of the film, (0.5, 0.5) the centre of the top left pixel.
  *
@@ -338,33 +393,8 @@ typedef struct rt_camera {
 static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int height,
                                    float x, float y)
 {
-    rt_ray ray;
-    ray.origin = camera->position;
-    ray.direction = rt_vec(0.0f, 0.0f, 0.0f);
-
-    const float fov_y = camera->fov_y == 0.0f ? 45.0f : camera->fov_y;
-    const rt_vec3 forward = rt_is_zero(camera->direction)
-                                ? rt_vec(0.0f, 0.0f, -1.0f)
-                                : rt_normalize(camera->direction);
-    const rt_vec3 up =
-        rt_is_zero(camera->up) ? rt_vec(0.0f, 1.0f, 0.0f) : rt_normalize(camera->up);
-    if (!(fov_y > 0.0f && fov_y < 180.0f && width > 0 && height > 0) ||
-        rt_is_zero(forward))
-        return ray;
-
-    rt_vec3 right = rt_normalize(rt_cross(forward, up)), top;
-    if (rt_is_zero(right))
-        rt_basis(forward, &right, &top);
-    top = rt_cross(right, forward);
-
-    float sine, cosine;
-    rt_sincos(fov_y / 720.0f, &sine, &cosine);
-    const float size = 2.0f * sine / cosine / (float)height; /* of a pixel */
-    const float to_right = size * (x - 0.5f * (float)width);
-    const float to_top = size * (0.5f * (float)height - y);
-    ray.direction = rt_normalize(
-        rt_add(forward, rt_add(rt_scale(right, to_right), rt_scale(top, to_top))));
-    return ray;
+    const rt__film film = rt__film_of(camera, width, height);
+    return rt__film_ray(&film, x, y);
 }
 
 /* What a surface does with light. It is explained in chapter 2 (albedo) and 6 (mirror);
@@ -389,53 +419,64 @@ typedef struct rt_hit {
     const rt_material *material; /* of the shape that was hit */
 } rt_hit;
 
-/* The first point of the sphere on the ray with 0 < t < t_max.
+/* The smallest t with 0 < t < t_max for which the ray meets the sphere, or 0.
  *
  * P = C + t u lies on the sphere when |P - O|^2 = R^2. With f = C - O that is
  *
  *     t^2 <u,u> + 2 t <f,u> + <f,f> - R^2 = 0,     a t^2 + 2 b t + c = 0,
  *
- * whose roots are t = (-b -+ sqrt(b^2 - a c)) / a. No real root: the ray passes by. The
- * smaller root is the way in; if it lies behind us (t <= 0) we are inside, and the larger
- * one is the way out.
- *
- * Returns false, and leaves *hit alone, on a miss; NaN or infinity anywhere, a direction
- * of length 0 and a radius that is not positive are misses.
+ * whose roots are t = (-b -+ sqrt(b^2 - a c)) / a. No real root: the ray passes by. Both
+ * are negative where we are outside (c > 0) and going away (b > 0): the sphere is behind
+ * us. Else the smaller root is the way in; if it is negative, too, we are inside, and the
+ * larger one is the way out.
  *
  * The formula is the textbook's, but in double: for a wall of radius 1e5, c is a small
  * difference of two numbers near 1e10, of which a float keeps seven digits: none is left.
- * P is then put back onto the sphere, O + R N, so that its error does not grow with t. */
-static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
-                                 rt_hit *hit)
+ * All comparisons are so written that NaN is a miss. */
+static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
+                                     float t_max)
 {
     const rt_dvec3 u = rt_to_double(ray->direction);
-    const rt_dvec3 center = rt_to_double(sphere->center);
+    const rt_dvec3 f = rt_dsub(rt_to_double(ray->origin), rt_to_double(sphere->center));
     const double radius = (double)sphere->radius;
-    const rt_dvec3 f = rt_dsub(rt_to_double(ray->origin), center); /* C - O */
 
     const double a = rt_ddot(u, u);
     const double b = rt_ddot(f, u);
     const double c = rt_ddot(f, f) - radius * radius;
     const double discriminant = b * b - a * c;
-    /* so written, here and below, that NaN is a miss */
-    if (!(discriminant >= 0.0 && a > 0.0 && radius > 0.0))
-        return false;
+    if (!(discriminant >= 0.0 && a > 0.0 && radius > 0.0) || (c > 0.0 && b >= 0.0))
+        return 0.0;
 
     const double root = sqrt(discriminant);
     double t = (-b - root) / a;
     if (!((float)t > 0.0f))
         t = (-b + root) / a;
-    if (!((float)t > 0.0f && t <= (double)FLT_MAX && (float)t < t_max))
-        return false;
+    return (float)t > 0.0f && t <= (double)FLT_MAX && (float)t < t_max ? t : 0.0;
+}
 
-    const rt_dvec3 n = rt_dmad(f, t, u); /* P - O, as long as R but for rounding */
-    const double length = sqrt(rt_ddot(n, n));
-    if (!(length > 0.0))
+/* The first point of the sphere on the ray with 0 < t < t_max, see above.
+ *
+ * Returns false, and leaves *hit alone, on a miss; NaN or infinity anywhere, a direction
+ * of length 0 and a radius that is not positive are misses.
+ *
+ * In double again; P is put back onto the sphere, O + R N, so that its error does not grow
+ * with t. */
+static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
+                                 rt_hit *hit)
+{
+    const double t = rt__meet_sphere(sphere, ray, t_max);
+    if (!(t > 0.0))
         return false;
-    const bool inside = rt_ddot(n, u) > 0.0;
+    const rt_dvec3 u = rt_to_double(ray->direction);
+    const rt_dvec3 center = rt_to_double(sphere->center);
+    rt_dvec3 n = rt_dmad(rt_dsub(rt_to_double(ray->origin), center), t, u); /* P - O */
+    const double length = sqrt(rt_ddot(n, n)); /* R, but for rounding */
+    if (!(length > 0.0))
+        return false; /* so small and so far away that no direction is left */
+    n = rt_dscale(n, 1.0 / length);
     hit->t = (float)t;
-    hit->point = rt_to_float(rt_dmad(center, radius / length, n));
-    hit->normal = rt_to_float(rt_dscale(n, (inside ? -1.0 : 1.0) / length));
+    hit->point = rt_to_float(rt_dmad(center, (double)sphere->radius, n));
+    hit->normal = rt_to_float(rt_dscale(n, rt_ddot(n, u) > 0.0 ? -1.0 : 1.0));
     hit->material = &sphere->material;
     return true;
 }
@@ -455,6 +496,8 @@ typedef struct rt_light {
     rt_vec3 intensity; /* I in W/sr per channel, not negative */
 } rt_light;
 
+struct rt_bvh; /* chapter 8 */
+
 /* The arrays are yours: they must live as long as the scene is used. NULL with 0 is fine.
  */
 typedef struct rt_scene {
@@ -465,25 +508,43 @@ typedef struct rt_scene {
     const rt_light *lights;
     int light_count;
     rt_vec3 background; /* the light that comes from where nothing is hit; 0 is black */
+    const struct rt_bvh *bvh; /* for many shapes, see chapter 8; NULL: ask each of them */
 } rt_scene;
 
 static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
                               rt_hit *hit); /* chapter 3 */
+static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_max);
+static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
+                                     rt_hit *hit); /* chapter 8 */
 
-/* The nearest hit of the ray in the scene: ask every shape for a hit that is nearer than
- * the nearest so far. Of two at exactly the same distance the first wins, spheres before
- * boxes. Returns false, and leaves *hit alone, if there is none. */
+/* The nearest hit of the ray in the scene: ask every shape for a t that is smaller than the
+ * smallest so far, and the last one that had it for point and normal. Of two at exactly
+ * the same distance the first wins, spheres before boxes. Returns false, and leaves *hit
+ * alone, if there is none. */
 static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
 {
-    rt_hit best = {FLT_MAX, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, NULL};
-    for (int i = 0; i < scene->sphere_count; i++)
-        rt_hit_sphere(&scene->spheres[i], ray, best.t, &best);
-    for (int i = 0; i < scene->box_count; i++)
-        rt_hit_box(&scene->boxes[i], ray, best.t, &best);
-    if (!best.material)
-        return false;
-    *hit = best;
-    return true;
+    if (scene->bvh)
+        return rt__intersect_bvh(scene, ray, hit); /* the same answer, sooner */
+    const rt_sphere *sphere = NULL;
+    const rt_box *box = NULL;
+    float nearest = FLT_MAX;
+    for (int i = 0; i < scene->sphere_count; i++) {
+        const float t = (float)rt__meet_sphere(&scene->spheres[i], ray, nearest);
+        if (t > 0.0f) {
+            nearest = t;
+            sphere = &scene->spheres[i];
+        }
+    }
+    for (int i = 0; i < scene->box_count; i++) {
+        const float t = rt__meet_box(&scene->boxes[i], ray, nearest);
+        if (t > 0.0f) {
+            nearest = t;
+            box = &scene->boxes[i];
+        }
+    }
+    if (box)
+        return rt_hit_box(box, ray, FLT_MAX, hit);
+    return sphere && rt_hit_sphere(sphere, ray, FLT_MAX, hit);
 }
 
 /* Lambert's law: the radiance that a diffuse surface sends, in every direction alike,
@@ -542,14 +603,36 @@ static inline bool rt__cut(rt__slabs *slabs, int axis, float low, float high,
     return t_in <= t_out && slabs->t_in <= slabs->t_out; /* NaN: false */
 }
 
+/* Cut with all three slabs. A box is what they have in common, and so is the part of the ray
+ * inside it: it begins at the largest of the three ways in and ends at the smallest of the
+ * three ways out. If it ends before it begins, the ray passes by. Returns the first t with
+ * 0 < t < t_max on the surface - the way in, or from inside the way out - or 0. */
+static inline float rt__cut_box(const rt_box *box, const rt_ray *ray, float t_max,
+                                rt__slabs *slabs)
+{
+    const rt_vec3 o = ray->origin, u = ray->direction;
+    slabs->t_in = -FLT_MAX;
+    slabs->t_out = FLT_MAX;
+    slabs->axis_in = slabs->axis_out = 0;
+    if (!rt__cut(slabs, 0, box->min.x, box->max.x, o.x, u.x) ||
+        !rt__cut(slabs, 1, box->min.y, box->max.y, o.y, u.y) ||
+        !rt__cut(slabs, 2, box->min.z, box->max.z, o.z, u.z))
+        return 0.0f;
+    const float t = slabs->t_in > 0.0f ? slabs->t_in : slabs->t_out;
+    return t > 0.0f && t < t_max && t < FLT_MAX ? t : 0.0f; /* FLT_MAX: no plane */
+}
+
+static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_max)
+{
+    rt__slabs slabs;
+    return rt__cut_box(box, ray, t_max, &slabs);
+}
+
 /* The first point of the box's surface on the ray with 0 < t < t_max.
  *
- * A box is what three slabs have in common, and so is the part of the ray inside it: it
- * begins at the largest of the three ways in and ends at the smallest of the three ways
- * out. If it ends before it begins, the ray passes by. From inside (way in at t <= 0) the
- * hit is the way out. The normal is that of the plane through which the ray comes or
- * goes; on an edge or corner x goes before y, y before z. The box is closed: a ray in the
- * plane of a face hits it. A flat box (min.y = max.y, say) is a rectangle.
+ * The normal is that of the plane through which the ray comes or, from inside, goes; on an
+ * edge or corner x goes before y, y before z. The box is closed: a ray in the plane of a
+ * face hits it. A flat box (min.y = max.y, say) is a rectangle.
  *
  * Returns false, and leaves *hit alone, on a miss; NaN, infinity and min > max are
  * misses.
@@ -560,16 +643,12 @@ static inline bool rt__cut(rt__slabs *slabs, int axis, float low, float high,
 static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
                               rt_hit *hit)
 {
-    const rt_vec3 o = ray->origin, u = ray->direction;
-    rt__slabs slabs = {-FLT_MAX, FLT_MAX, 0, 0};
-    if (!rt__cut(&slabs, 0, box->min.x, box->max.x, o.x, u.x) ||
-        !rt__cut(&slabs, 1, box->min.y, box->max.y, o.y, u.y) ||
-        !rt__cut(&slabs, 2, box->min.z, box->max.z, o.z, u.z))
+    const rt_vec3 u = ray->direction;
+    rt__slabs slabs;
+    const float t = rt__cut_box(box, ray, t_max, &slabs);
+    if (!(t > 0.0f))
         return false;
     const bool inside = !(slabs.t_in > 0.0f);
-    const float t = inside ? slabs.t_out : slabs.t_in;
-    if (!(t > 0.0f && t < t_max && t < FLT_MAX)) /* FLT_MAX: no plane bounds the ray */
-        return false;
 
     hit->t = t;
     hit->point = rt_at(ray, t);
@@ -617,16 +696,20 @@ static inline rt_vec3 rt_leave(rt_vec3 point, rt_vec3 normal, rt_vec3 direction)
                   rt_scale(normal, rt_dot(normal, direction) < 0.0f ? -offset : offset));
 }
 
+static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray,
+                                    float t_max); /* chapter 8 */
+
 /* Is there anything on the ray with 0 < t < t_max? Any hit will do, so the search ends
  * with the first one found. */
 static inline bool rt_occluded(const rt_scene *scene, const rt_ray *ray, float t_max)
 {
-    rt_hit unused;
+    if (scene->bvh)
+        return rt__occluded_bvh(scene, ray, t_max);
     for (int i = 0; i < scene->sphere_count; i++)
-        if (rt_hit_sphere(&scene->spheres[i], ray, t_max, &unused))
+        if (rt__meet_sphere(&scene->spheres[i], ray, t_max) > 0.0)
             return true;
     for (int i = 0; i < scene->box_count; i++)
-        if (rt_hit_box(&scene->boxes[i], ray, t_max, &unused))
+        if (rt__meet_box(&scene->boxes[i], ray, t_max) > 0.0f)
             return true;
     return false;
 }
@@ -649,6 +732,8 @@ typedef struct rt_rng {
     uint32_t key;       /* made from pixel, sample and seed */
     uint32_t dimension; /* how many numbers were drawn */
     uint32_t rays;      /* how many rays were traced: for statistics only */
+    bool sobol;         /* not random numbers but those of chapter 9, and ... */
+    uint32_t sample;    /* ... of which sample */
 } rt_rng;
 
 /* Direct light: the sum of Lambert's law over the lights that the point sees. Shadow rays
@@ -730,8 +815,12 @@ static inline rt_rng rt_rng_start(uint32_t pixel, uint32_t sample, uint32_t seed
     rng.key = rt_hash(pixel + rt_hash(sample + rt_hash(seed)));
     rng.dimension = 0;
     rng.rays = 0;
+    rng.sobol = false;
+    rng.sample = sample;
     return rng;
 }
+
+static inline uint32_t rt__sobol(const rt_rng *rng); /* chapter 9 */
 
 /* The next random number, uniform in (0, 1): the middle of one of 2^23 equal parts. That
  * is exact as a float, and neither 0 nor 1 comes up: with them a direction of the
@@ -740,7 +829,9 @@ static inline rt_rng rt_rng_start(uint32_t pixel, uint32_t sample, uint32_t seed
  * compilers differ. */
 static inline float rt_random(rt_rng *rng)
 {
-    const uint32_t bits = rt_hash(rng->key + rng->dimension++);
+    const uint32_t bits =
+        rng->sobol ? rt__sobol(rng) : rt_hash(rng->key + rng->dimension);
+    rng->dimension++;
     return ((float)(bits >> 9) + 0.5f) * (1.0f / 8388608.0f);
 }
 
@@ -818,7 +909,279 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
 }
 
 /* ====================================================================================
- * Chapter 8. Pictures
+ * Chapter 8. Many shapes
+ *
+ * Ten thousand shapes, and every ray asks each of them: that is what rt_intersect does as
+ * chapter 2 wrote it. But a ray that misses a box misses all that is in the box. So put
+ * boxes around neighbouring shapes, boxes around neighbouring boxes, up to one around
+ * everything: a bounding volume hierarchy, BVH. A ray then asks some tens of boxes and a
+ * handful of shapes, whether there are thousands or millions; the time grows with the
+ * logarithm of their number. Nothing else changes: the hit is the same, to the bit.
+ *
+ * S. Rubin, T. Whitted, "A 3-dimensional representation for fast rendering of complex
+ * scenes", SIGGRAPH 1980.
+ * ==================================================================================== */
+
+/* Up to eight boxes, and what is in each: a shape, or another node. Eight, and one array for
+ * each coordinate, because that is what a core of today can look at in one go (see the
+ * last section). */
+typedef struct rt_bvh_node {
+    float min_x[8], min_y[8], min_z[8], max_x[8], max_y[8], max_z[8];
+    int inside
+        [8]; /* n: the shape with number n, spheres first, then boxes; -n: nodes[n] */
+    int count;
+} rt_bvh_node;
+
+/* A shape as packets of rays want it: see the last section. */
+typedef struct rt__shape {
+    rt_vec3 center; /* of a box: min */
+    float radius;
+    rt_vec3 albedo;
+    float kind;  /* 1 for a mirror, and 2 more for a box */
+    rt_vec3 max; /* of a box */
+    float power; /* |O|^2 - R^2, the power of the point (0,0,0) */
+    float size;  /* max(|O|, R), scaled by RT__DOUBT */
+} rt__shape;
+
+/* What rt_build_bvh makes of a scene. All zero is an empty one. */
+typedef struct rt_bvh {
+    rt_bvh_node *nodes; /* nodes[0] is around everything */
+    int node_count, sphere_count, box_count;
+    rt__shape *shapes; /* all of them, if they are few; or NULL */
+    float size;        /* the largest coordinate of any box */
+} rt_bvh;
+
+/* 1/u, but finite for u = 0: so large that what is outside stays outside. */
+static inline float rt__inverse(float u)
+{
+    return fabsf(u) > 1e-29f ? 1.0f / u : 1e29f;
+}
+
+/* The part of a ray between two planes of an axis, low and high: cut t_in, t_out down. */
+static inline void rt__trim(float low, float high, float origin, float inverse,
+                            float *t_in, float *t_out)
+{
+    const float a = (low - origin) * inverse, b = (high - origin) * inverse;
+    const float in = a < b ? a : b, out = a < b ? b : a;
+    *t_in = in > *t_in ? in : *t_in;
+    *t_out = out < *t_out ? out : *t_out;
+}
+
+/* Which of the node's boxes the ray meets with 0 < t < t_max: bit k of the result for box
+ * k, and t[k], where it enters it. The slabs of chapter 3, with products in place of
+ * quotients: it may say yes to a ray that misses by a rounding, but never no to one that
+ * hits. Bound of the error, 2 gamma(3) = 6 roundings: pbrt, section 6.8.2. */
+static inline unsigned rt__enter(const rt_bvh_node *node, const rt_ray *ray,
+                                 rt_vec3 inverse, float t_max, float *t)
+{
+    const rt_vec3 o = ray->origin;
+    unsigned result = 0;
+    for (int k = 0; k < node->count; k++) {
+        float t_in = 0.0f, t_out = t_max;
+        rt__trim(node->min_x[k], node->max_x[k], o.x, inverse.x, &t_in, &t_out);
+        rt__trim(node->min_y[k], node->max_y[k], o.y, inverse.y, &t_in, &t_out);
+        rt__trim(node->min_z[k], node->max_z[k], o.z, inverse.z, &t_in, &t_out);
+        t[k] = t_in * (1.0f - 4.0f * FLT_EPSILON);
+        if (t[k] <= t_out)
+            result |= 1u << k;
+    }
+    return result;
+}
+
+typedef unsigned rt__enter_function(const rt_bvh_node *node, const rt_ray *ray,
+                                    rt_vec3 inverse, float t_max, float *t);
+
+/* The number of the lowest bit that is set. */
+static inline int rt__lowest(unsigned bits)
+{
+#ifdef __GNUC__
+    return __builtin_ctz(bits);
+#else
+    int k = 0;
+    while ((bits >> k & 1u) == 0)
+        k++;
+    return k;
+#endif
+}
+
+/* The t at which the ray meets the shape with this number, or 0; and the whole hit. */
+static inline float rt__meet_shape(const rt_scene *scene, int number, const rt_ray *ray,
+                                   float t_max)
+{
+    return number < scene->sphere_count
+               ? (float)rt__meet_sphere(&scene->spheres[number], ray, t_max)
+               : rt__meet_box(&scene->boxes[number - scene->sphere_count], ray, t_max);
+}
+
+static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
+                                 rt_hit *hit)
+{
+    return number < scene->sphere_count
+               ? rt_hit_sphere(&scene->spheres[number], ray, FLT_MAX, hit)
+               : rt_hit_box(&scene->boxes[number - scene->sphere_count], ray, FLT_MAX,
+                            hit);
+}
+
+/* What a ray on its way through the tree has yet to look at: a shape or a node (see
+ * rt_bvh_node) and t, before which there is no hit in it, in one number, of which t is the
+ * upper half: floats above 0 are in the same order as their bits. Never more than that at a
+ * time; rt_build_bvh takes care of it. */
+typedef uint64_t rt__item;
+#define RT__WAITING 256
+
+static inline rt__item rt__make_item(float t, int inside)
+{
+    uint32_t bits;
+    memcpy(&bits, &t, sizeof bits);
+    return (uint64_t)bits << 32 | (uint32_t)inside;
+}
+
+static inline float rt__item_t(rt__item item)
+{
+    const uint32_t bits = (uint32_t)(item >> 32);
+    float t;
+    memcpy(&t, &bits, sizeof t);
+    return t;
+}
+
+/* The number of the nearest shape that the ray meets before t_max, of the first of several
+ * at the same t; or if any will do, of any; or -1. What is entered first is looked at
+ * first, so that most of the rest turns out to be too far away. */
+RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max, bool any,
+                          rt__enter_function *enter)
+{
+    rt__item waiting[RT__WAITING];
+    const rt_vec3 inverse =
+        rt_vec(rt__inverse(ray->direction.x), rt__inverse(ray->direction.y),
+               rt__inverse(ray->direction.z));
+    const rt_bvh_node *node = scene->bvh->nodes;
+    float t[8];
+    int best = -1, count = 0;
+    for (;;) {
+        const int before = count;
+        rt__item nearest = UINT64_MAX;
+        for (unsigned in = enter(node, ray, inverse, t_max, t); in != 0; in &= in - 1u) {
+            const int k = rt__lowest(in);
+            const rt__item item = rt__make_item(t[k], node->inside[k]);
+            waiting[count++] = item > nearest ? item : nearest;
+            nearest = item < nearest ? item : nearest;
+        }
+        if (count >
+            before) { /* the nearest comes last, in place of the first UINT64_MAX */
+            waiting[before] = waiting[count - 1];
+            waiting[count - 1] = nearest;
+        }
+        for (node = NULL; !node;) {
+            if (count == 0)
+                return best;
+            const rt__item item = waiting[--count];
+            if (rt__item_t(item) > t_max)
+                continue;
+            const int number = (int)(uint32_t)item;
+            if (number < 0) {
+                node = &scene->bvh->nodes[-number];
+            } else if (any) {
+                if (rt__meet_shape(scene, number, ray, t_max) > 0.0f)
+                    return number;
+            } else {
+                const float limit =
+                    t_max * (1.0f + FLT_EPSILON); /* t_max itself counts */
+                const float found = rt__meet_shape(scene, number, ray, limit);
+                if (found > 0.0f &&
+                    (found < t_max || (found == t_max && number < best))) {
+                    t_max = found;
+                    best = number;
+                }
+            }
+        }
+    }
+}
+
+static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
+                                     rt_hit *hit)
+{
+    const int number = rt__search(scene, ray, FLT_MAX, false, rt__enter);
+    return number >= 0 && rt__hit_shape(scene, number, ray, hit);
+}
+
+static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, float t_max)
+{
+    return rt__search(scene, ray, t_max, true, rt__enter) >= 0;
+}
+
+/* ====================================================================================
+ * Chapter 9. Less noise from the same rays
+ *
+ * Random numbers fall in clumps and leave gaps: of 16 in (0, 1), it is rare that each
+ * sixteenth gets one. What a gap does not see is noise. Numbers chosen to fill the
+ * interval evenly, however many are taken, see more with the same rays: the error falls
+ * almost as 1/n where that of random numbers falls as 1/sqrt(n).
+ * ==================================================================================== */
+
+/* The 32 bits in reverse order: swap halves, then quarters, and so on. */
+static inline uint32_t rt__reverse(uint32_t v)
+{
+    v = v << 16 | v >> 16;
+    v = (v & 0x00ff00ffu) << 8 | (v >> 8 & 0x00ff00ffu);
+    v = (v & 0x0f0f0f0fu) << 4 | (v >> 4 & 0x0f0f0f0fu);
+    v = (v & 0x33333333u) << 2 | (v >> 2 & 0x33333333u);
+    return (v & 0x55555555u) << 1 | (v >> 1 & 0x55555555u);
+}
+
+/* Owen's scrambling, of reversed bits: each bit is kept or flipped, as a random decision
+ * that depends on the key and the bits below it. (Of a number in (0, 1): swap its halves
+ * or not, then the halves of each half, each pair by a throw of its own, and so on. What
+ * was evenly spread stays so.) One to one. The hash is that of N. Vegdahl, "Building a
+ * better LK hash", 2021, after S. Laine, T. Karras 2011 and B. Burley, "Practical
+ * hash-based Owen scrambling", JCGT 9(4), 2020. */
+static inline uint32_t rt__scramble(uint32_t v, uint32_t key)
+{
+    v ^= v * 0x3d20adeau;
+    v += key;
+    v *= (key >> 16) | 1u;
+    v ^= v * 0x05526c56u;
+    return v ^ v * 0x53a22864u;
+}
+
+/* The index of a sample made into the second coordinate of Sobol's points, reversed: bit
+ * i of the result is the sum modulo 2 of the bits k >= i of the index for which the
+ * binomial coefficient (k over i) is odd, in 5 steps instead of 32. (The first coordinate
+ * is the index itself, reversed.) I. Sobol, 1967. */
+static inline uint32_t rt__second(uint32_t v)
+{
+    v ^= v >> 16 & 0x0000ffffu;
+    v ^= v >> 8 & 0x00ff00ffu;
+    v ^= v >> 4 & 0x0f0f0f0fu;
+    v ^= v >> 2 & 0x33333333u;
+    return v ^ (v >> 1 & 0x55555555u);
+}
+
+/* The numbers of one sample of one pixel, as rt_rng_start, for rt_random to hand out: each
+ * of them, and each pair - the 1st with the 2nd, the 3rd with the 4th - fills its interval
+ * or square evenly over the samples 0, 1, 2 ... of a pixel: of the first 2^k samples, one
+ * falls into each of the 2^k equal parts, however the square is cut into rectangles of
+ * halves of halves. Sobol's first two dimensions, scrambled by Owen's method (A. Owen,
+ * 1997) with other keys for each pixel; each pair takes the samples in an order of its
+ * own, lest all pairs do the same and the picture be wrong. */
+static inline rt_rng rt_sobol_start(uint32_t pixel, uint32_t sample, uint32_t seed)
+{
+    rt_rng rng = rt_rng_start(pixel, 0, seed);
+    rng.sobol = true;
+    rng.sample = sample;
+    return rng;
+}
+
+static inline uint32_t rt__sobol(const rt_rng *rng)
+{
+    const uint32_t key = rt_hash(rng->key + (rng->dimension >> 1)); /* of the pair */
+    const uint32_t index = rt__reverse(rt__scramble(rt__reverse(rng->sample), key));
+    if ((rng->dimension & 1u) == 0)
+        return rt__reverse(rt__scramble(index, rt_hash(key + 1u)));
+    return rt__reverse(rt__scramble(rt__second(index), rt_hash(key + 2u)));
+}
+
+/* ====================================================================================
+ * Pictures
  * ==================================================================================== */
 
 /* A picture of linear RGB, row by row from the top: pixel (x, y) is pixels[y * width +
@@ -831,11 +1194,19 @@ typedef struct rt_image {
     int samples; /* how many samples every pixel has */
     int done;    /* how many pixels, from the first on, have one more (after a cancel) */
     uint64_t rays; /* how many rays were traced for it, camera and shadow rays included */
+    rt_vec3 *half; /* NULL, or as many vectors again, for the mean of every second sample:
+                      then the error can be estimated, see rt_image_error */
 } rt_image;
+
+typedef enum rt_sampler {
+    RT_SOBOL, /* the numbers of chapter 9 */
+    RT_RANDOM /* those of chapter 7 */
+} rt_sampler;
 
 /* How to render. Zero everywhere is valid. */
 typedef struct rt_options {
-    int samples;   /* per pixel, to be added to those the image has; 0 means 16 */
+    int samples;   /* per pixel, to be added to those the image has; 0 means 16, or with
+                      error or seconds as many as they allow */
     int bounces;   /* see rt_radiance; 0 is direct light only */
     int threads;   /* 1 to 1024; 0 means as many as OpenMP offers */
     uint32_t seed; /* another seed, another noise */
@@ -845,17 +1216,30 @@ typedef struct rt_options {
      */
     bool (*progress)(void *user, float part);
     void *user; /* handed to progress */
+
+    rt_sampler sampler; /* where the numbers come from */
+    float error;        /* stop when rt_image_error is down to this; the image needs half;
+                           0: never */
+    float seconds;      /* stop after this time, with at least one sample; 0: never */
+    int lanes; /* rays that rt_render traces at a time: 1, by chapters 1 to 7, or 4 or 8 if
+                  the machine can; 0: as many as it can. The picture is the same. */
 } rt_options;
 
 /* How it went; rt_status_text says it in words. */
 typedef enum rt_status {
     RT_OK,
     RT_CANCELLED,
+    RT_NO_MEMORY,
     RT_BAD_POINTER,
     RT_BAD_SIZE,
     RT_BAD_SAMPLES,
     RT_BAD_BOUNCES,
     RT_BAD_THREADS,
+    RT_BAD_SAMPLER,
+    RT_BAD_ERROR,
+    RT_BAD_SECONDS,
+    RT_BAD_LANES,
+    RT_BAD_BVH,
     RT_BAD_CAMERA,
     RT_BAD_SPHERE,
     RT_BAD_BOX,
@@ -870,23 +1254,49 @@ typedef rt_vec3 rt_pixel_function(const void *context, float x, float y, rt_rng 
 /* Add options->samples samples to every pixel of the image: a random point in the square
  * of the pixel, the ray of the camera through it, rt_radiance along the ray, and the
  * mean. options may be NULL: all defaults. An empty scene gives the background, a scene
- * without lights the part of it that arrives.
+ * without lights the part of it that arrives. A scene of more than 8 shapes without a bvh
+ * gets one for the time of the call; build it yourself if you render again and again.
  *
- * RT_CANCELLED if progress returned false before the end: the image holds what was done
- * by then, and the same call with what is left of the samples goes on from there, to the
- * same bits as without the stop. On any other status but RT_OK the image is untouched;
- * for a bad shape or light, rt_check_scene tells which. */
+ * RT_OK when all samples are done, or the wanted error is reached, or the time is over.
+ * RT_CANCELLED if progress returned false before that: the image holds what was done by
+ * then, and the same call with what is left of the samples goes on from there, to the
+ * same bits as without the stop. On any other status the image is untouched; for a bad
+ * shape or light, rt_check_scene tells which. */
 RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
                           const rt_options *options, rt_image *image);
 
 /* The same loop over pixels, samples and threads with a function of your own in place of
- * camera ray and rt_radiance. options->bounces is not looked at. */
+ * camera ray and rt_radiance. options->bounces and lanes are not looked at. */
 RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
                                  const rt_options *options, rt_image *image);
 
+/* The estimated error of the image: the standard deviation of its noise over its mean,
+ *
+ *     sqrt(mean of variance over pixels and channels) / mean of the image,
+ *
+ * so 0.01 means that a pixel is off by a hundredth of the mean brightness, typically. If
+ * the even samples, with mean A, and the odd ones are independent, each pixel of mean M
+ * tells its variance: (A - M)^2 n_even / n_odd. One pixel tells little, thousands tell it
+ * well. With image->half, rt_render keeps A there and takes even and odd samples from two
+ * sequences of their own. (That costs a little: RT_SOBOL spreads two halves apart, not
+ * the whole.) Error from too few bounces is not noise and not in it. 0 for a black image,
+ * INFINITY, that is unknown, with less than 2 samples or without half. */
+RTDEF float rt_image_error(const rt_image *image);
+
+/* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
+ * set scene->bvh = bvh. It holds numbers of the scene's shapes, not the shapes: build it
+ * anew when they move. Memory: some 120 bytes for each shape, and 25 more while it
+ * builds, from RT_MALLOC, for rt_free_bvh to give back.
+ *
+ * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
+RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
+
+/* Give the memory back; *bvh is all zero afterwards. NULL or all zero: does nothing. */
+RTDEF void rt_free_bvh(rt_bvh *bvh);
+
 /* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15, radius
  * > 0, min <= max, albedo 0 to 1, intensity and background not negative, no count
- * negative, no array missing. Otherwise what is wrong, and in *index, unless NULL, the
+ * negative, no array missing, bvh NULL or built for as many shapes. Otherwise what is wrong, and in *index, unless NULL, the
  * number of the offender in its array. rt_render asks it first. */
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index);
 
@@ -897,6 +1307,10 @@ RTDEF rt_status rt_check_camera(const rt_camera *camera);
 /* The number of threads that rt_render uses for options->threads = wanted; always 1 without
  * OpenMP. What rt_render refuses counts as the nearest that it takes, 1 or 1024. */
 RTDEF int rt_thread_count(int wanted);
+
+/* How many rays rt_render traces at a time for options->lanes = wanted: 1, 4 or 8, at most
+ * what the machine and the compiler offer. */
+RTDEF int rt_lane_count(int wanted);
 
 /* What a status means, in English, without a full stop. Never NULL. */
 RTDEF const char *rt_status_text(rt_status status);
@@ -920,12 +1334,18 @@ RTDEF const char *rt_status_text(rt_status status);
 #else
 #include <time.h>
 #endif
+#ifndef RT_MALLOC
+#include <stdlib.h>
+#define RT_MALLOC(size) malloc(size)
+#define RT_FREE(memory) free(memory)
+#endif
 
 RTDEF const char *rt_status_text(rt_status status)
 {
     switch (status) {
     case RT_OK: return "no error";
     case RT_CANCELLED: return "stopped by the progress function";
+    case RT_NO_MEMORY: return "not enough memory";
     case RT_BAD_POINTER:
         return "an argument is NULL, or an array of the scene is, or a count is negative";
     case RT_BAD_SIZE:
@@ -934,6 +1354,12 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_SAMPLES: return "samples must not be negative, nor pass 2^31 - 1 in all";
     case RT_BAD_BOUNCES: return "bounces must not be negative";
     case RT_BAD_THREADS: return "threads must be 0 to 1024";
+    case RT_BAD_SAMPLER: return "sampler must be RT_SOBOL or RT_RANDOM";
+    case RT_BAD_ERROR: return "error must not be negative, and needs image->half";
+    case RT_BAD_SECONDS: return "seconds must not be negative";
+    case RT_BAD_LANES:
+        return "lanes must be 0, 1, 4 or 8, and the machine must have them";
+    case RT_BAD_BVH: return "bvh: was built for another number of shapes";
     case RT_BAD_CAMERA: return "camera: numbers up to 1e15, and 0 <= fov_y < 180";
     case RT_BAD_SPHERE: return "sphere: numbers up to 1e15, radius > 0, albedo 0 to 1";
     case RT_BAD_BOX: return "box: numbers up to 1e15, min <= max, albedo 0 to 1";
@@ -987,7 +1413,12 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
             return RT_BAD_LIGHT;
     }
     *i = 0;
-    return rt__within(scene->background, 0.0f, RT__LARGEST) ? RT_OK : RT_BAD_BACKGROUND;
+    if (!rt__within(scene->background, 0.0f, RT__LARGEST))
+        return RT_BAD_BACKGROUND;
+    if (scene->bvh && (!scene->bvh->nodes || scene->bvh->box_count != scene->box_count ||
+                       scene->bvh->sphere_count != scene->sphere_count))
+        return RT_BAD_BVH;
+    return RT_OK;
 }
 
 RTDEF rt_status rt_check_camera(const rt_camera *camera)
@@ -1012,24 +1443,417 @@ RTDEF int rt_thread_count(int wanted)
 #endif
 }
 
-/* One more sample of pixel number i; returns how many rays it took.
- * The mean of n+1 values is the mean of n plus the (n+1)th part of the difference, so the
- * image is a picture after every sample, and the order of the sums is always the same. */
-static inline uint32_t rt__add_sample(rt_pixel_function *pixel, const void *context,
-                                      uint32_t seed, rt_image *image, int i)
+/* Can rays be traced in packets? See the last section. Not where the compiler does not
+ * optimise: there they would take longer. RT_NO_PACKETS leaves them out, RT_PACKETS takes
+ * them in all the same. */
+#if defined(__GNUC__) && !defined(RT_NO_PACKETS) &&                                      \
+    (defined(__OPTIMIZE__) || defined(RT_PACKETS))
+#ifdef __SSE2_MATH__
+#define RT__PACKETS
+#define RT__X86
+#include <immintrin.h>
+#elif defined(__aarch64__) && defined(__ARM_NEON)
+#define RT__PACKETS
+#include <arm_neon.h>
+#endif
+#endif
+
+/* ---- the tree of chapter 8 ---------------------------------------------------------- */
+
+typedef struct rt__bounds {
+    rt_vec3 min, max;
+} rt__bounds;
+
+static inline rt_vec3 rt__min(rt_vec3 a, rt_vec3 b)
 {
-    rt_rng rng = rt_rng_start((uint32_t)i, (uint32_t)image->samples, seed);
-    const float dx = rt_random(&rng);
-    const float dy = rt_random(&rng);
-    const int column = i % image->width, row = i / image->width;
-    const rt_vec3 value = pixel(context, (float)column + dx, (float)row + dy, &rng);
-    rt_vec3 *mean = &image->pixels[i];
-    if (image->samples == 0)
+    return rt_vec(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+}
+
+static inline rt_vec3 rt__max(rt_vec3 a, rt_vec3 b)
+{
+    return rt_vec(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
+
+static inline rt__bounds rt__no_bounds(void)
+{
+    rt__bounds b;
+    b.min = rt_vec(FLT_MAX, FLT_MAX, FLT_MAX);
+    b.max = rt_vec(-FLT_MAX, -FLT_MAX, -FLT_MAX);
+    return b;
+}
+
+static inline void rt__grow(rt__bounds *b, const rt__bounds *by)
+{
+    b->min = rt__min(b->min, by->min);
+    b->max = rt__max(b->max, by->max);
+}
+
+/* Half the surface: in proportion to it, rays from all sides meet a box. */
+static inline double rt__area(const rt__bounds *b)
+{
+    const rt_dvec3 d = rt_dsub(rt_to_double(b->max), rt_to_double(b->min));
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+/* Twice the middle of the box along an axis. */
+static inline float rt__middle(const rt__bounds *b, int axis)
+{
+    return axis == 0   ? b->min.x + b->max.x
+           : axis == 1 ? b->min.y + b->max.y
+                       : b->min.z + b->max.z;
+}
+
+static inline float rt__component(rt_vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
+{
+    rt__bounds b;
+    if (number >= scene->sphere_count) {
+        b.min = scene->boxes[number - scene->sphere_count].min;
+        b.max = scene->boxes[number - scene->sphere_count].max;
+    } else {
+        const rt_sphere *s = &scene->spheres[number];
+        const rt_vec3 r = rt_vec(s->radius, s->radius, s->radius);
+        b.min = rt_sub(s->center, r);
+        b.max = rt_add(s->center, r);
+        /* rounded outwards */
+        const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.min, -1.0f)), r);
+        b.min = rt_sub(b.min, rt_scale(size, FLT_EPSILON));
+        b.max = rt_add(b.max, rt_scale(size, FLT_EPSILON));
+    }
+    return b;
+}
+
+/* Some of the shapes: order[first] and those after it. */
+typedef struct rt__group {
+    int first, count;
+    rt__bounds bounds;
+} rt__group;
+
+static inline rt__bounds rt__bounds_of(const rt__bounds *bounds, const int *order,
+                                       int count)
+{
+    rt__bounds whole = rt__no_bounds();
+    for (int i = 0; i < count; i++)
+        rt__grow(&whole, &bounds[order[i]]);
+    return whole;
+}
+
+enum { RT__BINS = 16 };
+
+/* In which of the bins between low and low + extent a shape lies. */
+static inline int rt__bin(float middle, float low, float extent)
+{
+    const int bin = (int)((float)RT__BINS * ((middle - low) / extent));
+    return bin < 0 ? 0 : bin < RT__BINS ? bin : RT__BINS - 1;
+}
+
+/* Sort a group of shapes into two, and say how many are in the first.
+ *
+ * A ray enters a box in proportion to its surface, and then asks what is inside: the two
+ * cost A_left n_left + A_right n_right. Of 15 cuts across the longest axis the cheapest is
+ * taken: the surface area heuristic, in bins (I. Wald, "On fast construction of SAH-based
+ * bounding volume hierarchies", 2007). A giant among small shapes is cut off by it at
+ * once, and spoils only the boxes above. */
+static inline int rt__split(const rt__bounds *bounds, int *order, int count)
+{
+    rt__bounds middles = rt__no_bounds();
+    for (int i = 0; i < count; i++) {
+        const rt__bounds *b = &bounds[order[i]];
+        rt__bounds middle;
+        middle.min = middle.max = rt_add(b->min, b->max);
+        rt__grow(&middles, &middle);
+    }
+    const rt_vec3 extents = rt_sub(middles.max, middles.min);
+    const int axis = extents.x >= extents.y && extents.x >= extents.z ? 0
+                     : extents.y >= extents.z                         ? 1
+                                                                      : 2;
+    const float low = rt__component(middles.min, axis);
+    const float extent = rt__component(extents, axis);
+    if (!(extent > 0.0f)) /* all in one place: no cut is better than another */
+        return count / 2;
+
+    rt__bounds bins[RT__BINS], side = rt__no_bounds();
+    int counts[RT__BINS] = {0}, n = 0, best = 1;
+    double costs[RT__BINS],
+        best_cost = DBL_MAX; /* costs[k]: of bin k and those after it */
+    for (int k = 0; k < RT__BINS; k++)
+        bins[k] = rt__no_bounds();
+    for (int i = 0; i < count; i++) {
+        const int k = rt__bin(rt__middle(&bounds[order[i]], axis), low, extent);
+        rt__grow(&bins[k], &bounds[order[i]]);
+        counts[k]++;
+    }
+    for (int k = RT__BINS - 1; k > 0; k--) {
+        rt__grow(&side, &bins[k]);
+        n += counts[k];
+        costs[k] = rt__area(&side) * n;
+    }
+    side = rt__no_bounds();
+    n = 0;
+    for (int k = 1; k < RT__BINS; k++) {
+        rt__grow(&side, &bins[k - 1]);
+        n += counts[k - 1];
+        const double cost = rt__area(&side) * n + costs[k];
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = k;
+        }
+    }
+    int left = 0;
+    for (int i = 0; i < count; i++) {
+        const int number = order[i];
+        if (rt__bin(rt__middle(&bounds[number], axis), low, extent) < best) {
+            order[i] = order[left];
+            order[left++] = number;
+        }
+    }
+    return left;
+}
+
+/* Cut a group into up to eight: always the one that costs most. Returns how many. */
+static inline int rt__split_in_eight(const rt__bounds *bounds, int *order, bool in_halves,
+                                     rt__group *groups)
+{
+    int count = 1;
+    while (count < 8) {
+        int worst = -1;
+        double worst_cost = -1.0;
+        for (int k = 0; k < count; k++) {
+            const double cost = rt__area(&groups[k].bounds) * groups[k].count;
+            if (groups[k].count > 1 && cost > worst_cost) {
+                worst_cost = cost;
+                worst = k;
+            }
+        }
+        if (worst < 0)
+            break;
+        rt__group *one = &groups[worst], *two = &groups[count++];
+        int *those = order + one->first;
+        const int left =
+            in_halves ? one->count / 2 : rt__split(bounds, those, one->count);
+        two->first = one->first + left;
+        two->count = one->count - left;
+        two->bounds = rt__bounds_of(bounds, those + left, two->count);
+        one->count = left;
+        one->bounds = rt__bounds_of(bounds, those, left);
+    }
+    return count;
+}
+
+static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
+{
+    node->min_x[k] = b->min.x;
+    node->min_y[k] = b->min.y;
+    node->min_z[k] = b->min.z;
+    node->max_x[k] = b->max.x;
+    node->max_y[k] = b->max.y;
+    node->max_z[k] = b->max.z;
+}
+
+/* All nodes; there is room for one node less than there are shapes. Groups that wait to
+ * become nodes are on a stack. A tree that grows too deep - shapes at 1, 2, 4, 8 ... - is
+ * cut in halves from some depth on: 20 + 31 / 3 levels, seven boxes waiting in each. */
+static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *order,
+                                   int count)
+{
+    struct {
+        int node, depth;
+        rt__group group;
+    } todo[RT__WAITING];
+    int waiting = 1;
+    todo[0].node = todo[0].depth = 0;
+    todo[0].group.first = 0;
+    todo[0].group.count = count;
+    todo[0].group.bounds = rt__bounds_of(bounds, order, count);
+    bvh->node_count = 1;
+    bvh->nodes[0].count = 0;
+    while (waiting > 0 && count > 0) {
+        waiting--;
+        rt_bvh_node *node = &bvh->nodes[todo[waiting].node];
+        const int depth = todo[waiting].depth;
+        rt__group groups[8];
+        groups[0] = todo[waiting].group;
+        node->count = rt__split_in_eight(bounds, order, depth > 20, groups);
+        for (int k = 0; k < node->count; k++) {
+            rt__set_box(node, k, &groups[k].bounds);
+            if (groups[k].count == 1) {
+                node->inside[k] = order[groups[k].first];
+                continue;
+            }
+            todo[waiting].node = bvh->node_count++;
+            todo[waiting].depth = depth + 1;
+            todo[waiting].group = groups[k];
+            node->inside[k] = -todo[waiting++].node;
+        }
+    }
+}
+
+#define RT__DOUBT 1.381067932e-3f /* 2^-9.5 */
+
+static inline rt__shape rt__shape_of(const rt_scene *scene, int number)
+{
+    rt__shape shape;
+    const rt_material *material;
+    memset(&shape, 0, sizeof shape);
+    if (number < scene->sphere_count) {
+        const rt_sphere *sphere = &scene->spheres[number];
+        const rt_dvec3 center = rt_to_double(sphere->center);
+        const double oo = rt_ddot(center, center), r = (double)sphere->radius;
+        shape.center = sphere->center;
+        shape.radius = sphere->radius;
+        shape.power = (float)(oo - r * r);
+        shape.size = RT__DOUBT * (float)(oo > r * r ? sqrt(oo) : r) + 1e-10f;
+        material = &sphere->material;
+    } else {
+        const rt_box *box = &scene->boxes[number - scene->sphere_count];
+        shape.center = box->min;
+        shape.max = box->max;
+        shape.kind = 2.0f;
+        material = &box->material;
+    }
+    shape.albedo = material->albedo;
+    shape.kind += material->mirror ? 1.0f : 0.0f;
+    return shape;
+}
+
+enum { RT__FEW = 16 }; /* so many shapes packets ask one by one, without a tree */
+
+RTDEF void rt_free_bvh(rt_bvh *bvh)
+{
+    if (!bvh)
+        return;
+    RT_FREE(bvh->nodes);
+    RT_FREE(bvh->shapes);
+    memset(bvh, 0, sizeof *bvh);
+}
+
+RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
+{
+    if (!scene || !bvh)
+        return RT_BAD_POINTER;
+    memset(bvh, 0, sizeof *bvh);
+    rt_scene shapes = *scene;
+    shapes.bvh = NULL;
+    const rt_status status = rt_check_scene(&shapes, NULL);
+    if (status != RT_OK)
+        return status;
+    if (scene->sphere_count > INT_MAX - scene->box_count)
+        return RT_NO_MEMORY;
+    const int count = scene->sphere_count + scene->box_count;
+    const size_t n = count > 1 ? (size_t)count : 2; /* no malloc(0) */
+    rt__bounds *bounds = (rt__bounds *)RT_MALLOC(n * sizeof *bounds);
+    int *order = (int *)RT_MALLOC(n * sizeof *order);
+    bvh->nodes = (rt_bvh_node *)RT_MALLOC((n - 1) * sizeof *bvh->nodes);
+    if (count <= RT__FEW)
+        bvh->shapes = (rt__shape *)RT_MALLOC(RT__FEW * sizeof *bvh->shapes);
+    const bool good = bounds && order && bvh->nodes && (bvh->shapes || count > RT__FEW);
+    if (good) {
+        bounds[0] = rt__no_bounds();
+        for (int i = 0; i < count; i++) {
+            bounds[i] = rt__shape_bounds(scene, i);
+            order[i] = i;
+        }
+        rt__build_nodes(bvh, bounds, order, count);
+        for (int i = 0; i < count && count <= RT__FEW; i++)
+            bvh->shapes[i] = rt__shape_of(scene, i);
+        const rt__bounds all = rt__bounds_of(bounds, order, count);
+        const rt_vec3 outmost = rt__max(all.max, rt_scale(all.min, -1.0f));
+        bvh->size = outmost.x > outmost.y ? outmost.x : outmost.y;
+        bvh->size = outmost.z > bvh->size ? outmost.z : bvh->size;
+        bvh->sphere_count = scene->sphere_count;
+        bvh->box_count = scene->box_count;
+    }
+    RT_FREE(bounds);
+    RT_FREE(order);
+    if (!good)
+        rt_free_bvh(bvh);
+    return good ? RT_OK : RT_NO_MEMORY;
+}
+
+/* ---- the loop over samples and pixels ----------------------------------------------- */
+
+typedef struct rt__job rt__job;
+
+/* One more sample for the pixels from first to last - 1; returns how many rays it took. */
+typedef uint64_t rt__step(const rt__job *job, int first, int last);
+
+struct rt__job {
+    rt__step *step;
+    int chunk; /* so many pixels a thread takes at a time */
+    rt_image *image;
+    rt_options options;
+    rt_pixel_function *pixel; /* rt__step_pixels calls it with context */
+    const void *context;
+    const rt_scene *scene; /* what rt_render is about */
+    rt__film film;
+    int bounces;
+};
+
+/* Which numbers the next sample of the pixels takes: those of (sample, seed). */
+static inline uint32_t rt__sequence(const rt__job *job, uint32_t *seed)
+{
+    const uint32_t sample = (uint32_t)job->image->samples;
+    *seed = job->options.seed;
+    if (job->options.sampler == RT_RANDOM || !job->image->half)
+        return sample;
+    *seed ^= sample << 31; /* two sequences in turn: see rt_image_error */
+    return sample >> 1;
+}
+
+/* The mean of n+1 values is the mean of n plus the (n+1)th part of the difference, so the
+ * image is a picture after every sample, and the order of the sums is always the same. */
+static inline void rt__add_to_mean(rt_vec3 *mean, int n, rt_vec3 value)
+{
+    if (n == 0)
         *mean = value;
     else
-        *mean = rt_add(
-            *mean, rt_scale(rt_sub(value, *mean), 1.0f / (float)(image->samples + 1)));
-    return rng.rays;
+        *mean = rt_add(*mean, rt_scale(rt_sub(value, *mean), 1.0f / (float)(n + 1)));
+}
+
+static inline void rt__record(rt_image *image, int i, rt_vec3 value)
+{
+    rt__add_to_mean(&image->pixels[i], image->samples, value);
+    if (image->half && image->samples % 2 == 0)
+        rt__add_to_mean(&image->half[i], image->samples / 2, value);
+}
+
+static inline uint64_t rt__step_pixels(const rt__job *job, int first, int last)
+{
+    const int width = job->image->width;
+    uint64_t rays = 0;
+    uint32_t seed;
+    const uint32_t sample = rt__sequence(job, &seed);
+    for (int i = first; i < last; i++) {
+        rt_rng rng = job->options.sampler == RT_RANDOM
+                         ? rt_rng_start((uint32_t)i, sample, seed)
+                         : rt_sobol_start((uint32_t)i, sample, seed);
+        const float dx = rt_random(&rng);
+        const float dy = rt_random(&rng);
+        const float x = (float)(i % width) + dx, y = (float)(i / width) + dy;
+        rt__record(job->image, i, job->pixel(job->context, x, y, &rng));
+        rays += rng.rays;
+    }
+    return rays;
+}
+
+RTDEF float rt_image_error(const rt_image *image)
+{
+    if (!image || !image->pixels || !image->half || image->samples < 2)
+        return INFINITY;
+    const int count = image->width * image->height;
+    double squares = 0.0, sum = 0.0;
+    for (int i = 0; i < count; i++) {
+        const rt_vec3 mean = image->pixels[i], d = rt_sub(image->half[i], mean);
+        squares += (double)rt_dot(d, d);
+        sum += (double)mean.x + (double)mean.y + (double)mean.z;
+    }
+    const double even = (image->samples + 1) / 2, odd = image->samples / 2;
+    const double noise = sqrt(squares * even / odd / (3.0 * count));
+    return sum > 0.0 ? (float)(noise / (sum / (3.0 * count))) : 0.0f;
 }
 
 /* Seconds since some moment. */
@@ -1042,9 +1866,29 @@ static inline double rt__seconds(void)
 #endif
 }
 
+static inline rt_status rt__check_job(const rt_image *image, const rt_options *o)
+{
+    if (!image || !image->pixels)
+        return RT_BAD_POINTER;
+    if (image->width < 1 || image->height < 1 || image->width > INT_MAX / image->height ||
+        image->done < 0 || image->done >= image->width * image->height)
+        return RT_BAD_SIZE;
+    if (o->samples < 0 || image->samples < 0 || o->samples > INT_MAX - image->samples)
+        return RT_BAD_SAMPLES;
+    if (o->threads < 0 || o->threads > 1024)
+        return RT_BAD_THREADS;
+    if (o->sampler != RT_SOBOL && o->sampler != RT_RANDOM)
+        return RT_BAD_SAMPLER;
+    if (!(o->error >= 0.0f) || (o->error > 0.0f && !image->half))
+        return RT_BAD_ERROR;
+    if (!(o->seconds >= 0.0f))
+        return RT_BAD_SECONDS;
+    return RT_OK;
+}
+
 /* One sample for every pixel, and again. The pixels are shared out among the threads in
  * bands, so that between two bands all threads rest and the caller can look at the
- * picture. In a band each thread takes the next 32 pixels that nobody has
+ * picture. In a band each thread takes the next chunk of pixels that nobody has
  * (schedule(dynamic)): a fixed share each would leave one waiting for the other. Every
  * pixel is written by one thread, and everything else that is written is declared inside
  * the loop: that is all it takes for "#pragma omp parallel for" to be right, and -fopenmp
@@ -1052,42 +1896,34 @@ static inline double rt__seconds(void)
  *
  * A band should last 20 to 60 ms: short enough for a window to answer, long enough not to
  * waste time on waiting for the slowest thread. */
-RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
-                                 const rt_options *options, rt_image *image)
+static inline rt_status rt__run(const rt__job *job)
 {
-    static const rt_options defaults = {0, 0, 0, 0, NULL, NULL};
-    const rt_options o = options ? *options : defaults;
-    if (!pixel || !image || !image->pixels)
-        return RT_BAD_POINTER;
-    if (image->width < 1 || image->height < 1 || image->width > INT_MAX / image->height)
-        return RT_BAD_SIZE;
-    const int count = image->width * image->height;
-    if (image->done < 0 || image->done >= count)
-        return RT_BAD_SIZE;
-    const int samples = o.samples == 0 ? 16 : o.samples;
-    if (samples < 0 || image->samples < 0 || samples > INT_MAX - image->samples)
-        return RT_BAD_SAMPLES;
-    if (o.threads < 0 || o.threads > 1024)
-        return RT_BAD_THREADS;
-
-    const int threads = rt_thread_count(o.threads);
+    const rt_options *o = &job->options;
+    rt_image *image = job->image;
+    const int count = image->width * image->height, chunk = job->chunk;
+    const int threads = rt_thread_count(o->threads);
+    int samples = o->samples;
+    if (samples == 0)
+        samples = o->error > 0.0f || o->seconds > 0.0f ? INT_MAX - image->samples : 16;
     const int target = image->samples + samples;
     const double begun = image->samples + (double)image->done / count;
-    int band = 1024 * threads;
+    const double started = rt__seconds();
+    int band = 32 * chunk * threads, look = image->samples + 16;
+    float part_of_error = 0.0f;
     while (image->samples < target) {
         const int first = image->done;
         const int last = count - first > band ? first + band : count;
         const double start = rt__seconds();
         uint64_t rays = 0;
 #ifdef _OPENMP
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 32) reduction(+ : rays)
+#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(+ : rays)
 #endif
-        for (int i = first; i < last; i++)
-            rays += rt__add_sample(pixel, context, o.seed, image, i);
-        const double took = rt__seconds() - start;
-        if (took < 0.02)
+        for (int i = first; i < last; i += chunk)
+            rays += job->step(job, i, last - i > chunk ? i + chunk : last);
+        const double now = rt__seconds();
+        if (now - start < 0.02)
             band = band > INT_MAX / 2 ? INT_MAX : 2 * band;
-        else if (took > 0.06 && band > 64)
+        else if (now - start > 0.06 && band > 64)
             band = band / 2;
 
         image->rays += rays;
@@ -1096,48 +1932,1262 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
             image->done = 0;
             image->samples++;
         }
-        const double now = image->samples + (double)image->done / count;
-        const float part = (float)((now - begun) / (target - begun));
-        if (o.progress && !o.progress(o.user, part) && image->samples < target)
+        /* The error: when the number of samples has grown by an eighth, and is even. */
+        if (o->error > 0.0f && image->done == 0 && image->samples >= look &&
+            image->samples % 2 == 0) {
+            const float error = rt_image_error(image);
+            if (error <= o->error)
+                part_of_error = 1.0f;
+            else
+                part_of_error = o->error / error * (o->error / error);
+            look = image->samples + image->samples / 8;
+        }
+        const bool time_over = o->seconds > 0.0f && image->samples > 0 &&
+                               now - started >= (double)o->seconds;
+        if (image->samples == target || part_of_error == 1.0f || time_over) {
+            if (o->progress)
+                o->progress(o->user, 1.0f);
+            return RT_OK;
+        }
+        const double sampled = image->samples + (double)image->done / count - begun;
+        float part = (float)(sampled / samples);
+        part = part > part_of_error ? part : part_of_error;
+        if (o->seconds > 0.0f && (float)(now - started) / o->seconds > part)
+            part = (float)(now - started) / o->seconds;
+        if (o->progress && !o->progress(o->user, part < 1.0f ? part : 1.0f))
             return RT_CANCELLED;
     }
     return RT_OK;
 }
 
-typedef struct rt__view {
-    const rt_scene *scene;
-    const rt_camera *camera;
-    int width, height, bounces;
-} rt__view;
+RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
+                                 const rt_options *options, rt_image *image)
+{
+    rt__job job;
+    memset(&job, 0, sizeof job);
+    if (!pixel)
+        return RT_BAD_POINTER;
+    if (options)
+        job.options = *options;
+    const rt_status status = rt__check_job(image, &job.options);
+    if (status != RT_OK)
+        return status;
+    job.step = rt__step_pixels;
+    job.chunk = 32;
+    job.image = image;
+    job.pixel = pixel;
+    job.context = context;
+    return rt__run(&job);
+}
 
 static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *rng)
 {
-    const rt__view *view = (const rt__view *)context;
-    const rt_ray ray = rt_camera_ray(view->camera, view->width, view->height, x, y);
-    return rt_radiance(view->scene, &ray, view->bounces, rng);
+    const rt__job *job = (const rt__job *)context;
+    const rt_ray ray = rt__film_ray(&job->film, x, y);
+    return rt_radiance(job->scene, &ray, job->bounces, rng);
+}
+
+#ifdef RT__PACKETS
+/* Packets square such numbers in float; larger ones are left to chapters 1 to 7. */
+static inline bool rt__moderate(const rt_scene *scene, const rt_camera *camera)
+{
+    const float most = 1e8f;
+    bool good = scene->bvh->size <= most && rt__within(camera->position, -most, most);
+    for (int i = 0; i < scene->light_count; i++)
+        good = good && rt__within(scene->lights[i].position, -most, most);
+    return good;
+}
+
+#define RT__LANES 4
+#include "rt.h" /* its last section, once for each number of lanes */
+#undef RT__LANES
+#ifdef RT__X86
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#endif
+#define RT__LANES 8
+#include "rt.h"
+#undef RT__LANES
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#endif
+
+RTDEF int rt_lane_count(int wanted)
+{
+    int most = 1;
+#ifdef RT__PACKETS
+    most = 4;
+#ifdef RT__X86
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        most = 8;
+#endif
+#endif
+    return wanted <= 0 || wanted > most ? most : wanted < 4 ? 1 : wanted < 8 ? 4 : 8;
 }
 
 RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
                           const rt_options *options, rt_image *image)
 {
+    rt__job job;
+    rt_scene indexed;
+    rt_bvh bvh;
+    memset(&job, 0, sizeof job);
+    memset(&bvh, 0, sizeof bvh);
     if (!scene || !camera || !image)
         return RT_BAD_POINTER;
-    const rt_status status = rt_check_scene(scene, NULL);
+    rt_status status = rt_check_scene(scene, NULL);
     if (status != RT_OK)
         return status;
     if (rt_check_camera(camera) != RT_OK)
         return RT_BAD_CAMERA;
-    if (options && options->bounces < 0)
+    if (options)
+        job.options = *options;
+    if (job.options.bounces < 0)
         return RT_BAD_BOUNCES;
-    rt__view view = {scene, camera, image->width, image->height,
-                     options ? options->bounces : 0};
-    return rt_render_pixels(rt__pixel, &view, options, image);
+    const int lanes = rt_lane_count(job.options.lanes);
+    if (job.options.lanes != 0 && job.options.lanes != lanes)
+        return RT_BAD_LANES;
+    status = rt__check_job(image, &job.options);
+    if (status != RT_OK)
+        return status;
+
+    indexed = *scene;
+    if (!indexed.bvh && (lanes > 1 || scene->sphere_count + scene->box_count > RT__FEW)) {
+        status = rt_build_bvh(scene, &bvh);
+        if (status != RT_OK)
+            return status;
+        indexed.bvh = &bvh;
+    }
+    job.image = image;
+    job.scene = &indexed;
+    job.film = rt__film_of(camera, image->width, image->height);
+    job.bounces = job.options.bounces;
+    job.step = rt__step_pixels;
+    job.chunk = 32;
+    job.pixel = rt__pixel;
+    job.context = &job;
+#ifdef RT__PACKETS
+    if (lanes > 1 && rt__moderate(&indexed, camera)) {
+        job.step = rt__step_packets4;
+        job.chunk = 128;
+#ifdef RT__X86
+        if (lanes == 8)
+            job.step = rt__step_packets8;
+#endif
+    }
+#endif
+    status = rt__run(&job);
+    rt_free_bvh(&bvh);
+    return status;
 }
 
 #ifdef __clang__
 #pragma STDC FP_CONTRACT DEFAULT
 #endif
 #endif /* RT_IMPLEMENTATION */
+
+/* ====================================================================================
+ * Packets: 4 or 8 rays at a time
+ *
+ * A core of today adds 4 or 8 floats with the one instruction that adds one (SSE2 and
+ * NEON: 4; AVX2: 8). So here are chapters 1 to 7 once more, for packets of neighbouring
+ * pixels: where they say float, this says rt__f, one float for each ray, its lane; a + b
+ * adds lane by lane, a < b gives a mask with all bits set where it is true, and where
+ * they say if, this says rt__select(mask, yes, no), because all lanes go the same way.
+ * The vectors are those of gcc and clang; sqrt, min, max, select and conversions are the
+ * machine's own. The file includes itself, as "rt.h", to come here once for each number
+ * of lanes; all names get the number at their end.
+ *
+ * Every lane computes the bits that chapters 1 to 7 would compute. For most of the code
+ * that is plain: the same operations in the same order. The sphere is the exception: of
+ * double, which it needs, only half as many fit, and most spheres are not hit. So all
+ * shapes are asked in float first, with a bound for the error, which gives each a t that
+ * is surely not too large. If the shape with the smallest, computed as chapter 1 does, in
+ * double, is nearer than that of any other, it is the nearest. If not, or if it is a box,
+ * the lane asks chapters 1 to 3. Shadows likewise: yes, no, or in doubt ask. In the room,
+ * one lane in sixty asks, most of them because of the cube.
+ *
+ * That is how the scene is asked if the shapes are few. If they are many, each ray goes
+ * through the tree of chapter 8 by itself, and the lanes are the eight boxes of a node.
+ * ==================================================================================== */
+#ifdef RT__LANES
+
+#define RT__PASTE(name, lanes) name##lanes
+#define RT__NAME(name, lanes) RT__PASTE(name, lanes)
+#define rt__d RT__NAME(rt__d, RT__LANES)
+#define rt__d3 RT__NAME(rt__d3, RT__LANES)
+#define rt__f RT__NAME(rt__f, RT__LANES)
+#define rt__f3 RT__NAME(rt__f3, RT__LANES)
+#define rt__hits RT__NAME(rt__hits, RT__LANES)
+#define rt__l RT__NAME(rt__l, RT__LANES)
+#define rt__m RT__NAME(rt__m, RT__LANES)
+#define rt__nearest RT__NAME(rt__nearest, RT__LANES)
+#define rt__numbers RT__NAME(rt__numbers, RT__LANES)
+#define rt__rays RT__NAME(rt__rays, RT__LANES)
+#define rt__shade RT__NAME(rt__shade, RT__LANES)
+#define rt__u RT__NAME(rt__u, RT__LANES)
+#define rt__add RT__NAME(rt__add, RT__LANES)
+#define rt__aim RT__NAME(rt__aim, RT__LANES)
+#define rt__all RT__NAME(rt__all, RT__LANES)
+#define rt__ask RT__NAME(rt__ask, RT__LANES)
+#define rt__ask_shadow RT__NAME(rt__ask_shadow, RT__LANES)
+#define rt__backwards RT__NAME(rt__backwards, RT__LANES)
+#define rt__bits RT__NAME(rt__bits, RT__LANES)
+#define rt__blocked RT__NAME(rt__blocked, RT__LANES)
+#define rt__blocked_in_tree RT__NAME(rt__blocked_in_tree, RT__LANES)
+#define rt__blocks_box RT__NAME(rt__blocks_box, RT__LANES)
+#define rt__blocks_sphere RT__NAME(rt__blocks_sphere, RT__LANES)
+#define rt__cosine RT__NAME(rt__cosine, RT__LANES)
+#define rt__ddot RT__NAME(rt__ddot, RT__LANES)
+#define rt__dmad RT__NAME(rt__dmad, RT__LANES)
+#define rt__dot RT__NAME(rt__dot, RT__LANES)
+#define rt__draw RT__NAME(rt__draw, RT__LANES)
+#define rt__dscale RT__NAME(rt__dscale, RT__LANES)
+#define rt__dselect RT__NAME(rt__dselect, RT__LANES)
+#define rt__dsqrt RT__NAME(rt__dsqrt, RT__LANES)
+#define rt__dsub RT__NAME(rt__dsub, RT__LANES)
+#define rt__enter_lanes RT__NAME(rt__enter_lanes, RT__LANES)
+#define rt__fabs RT__NAME(rt__fabs, RT__LANES)
+#define rt__find RT__NAME(rt__find, RT__LANES)
+#define rt__find_in_tree RT__NAME(rt__find_in_tree, RT__LANES)
+#define rt__finish RT__NAME(rt__finish, RT__LANES)
+#define rt__fma RT__NAME(rt__fma, RT__LANES)
+#define rt__fmax RT__NAME(rt__fmax, RT__LANES)
+#define rt__fmin RT__NAME(rt__fmin, RT__LANES)
+#define rt__fnma RT__NAME(rt__fnma, RT__LANES)
+#define rt__fsqrt RT__NAME(rt__fsqrt, RT__LANES)
+#define rt__gather RT__NAME(rt__gather, RT__LANES)
+#define rt__halves RT__NAME(rt__halves, RT__LANES)
+#define rt__invert RT__NAME(rt__invert, RT__LANES)
+#define rt__join RT__NAME(rt__join, RT__LANES)
+#define rt__leave RT__NAME(rt__leave, RT__LANES)
+#define rt__light RT__NAME(rt__light, RT__LANES)
+#define rt__mix RT__NAME(rt__mix, RT__LANES)
+#define rt__mul RT__NAME(rt__mul, RT__LANES)
+#define rt__near_box RT__NAME(rt__near_box, RT__LANES)
+#define rt__near_sphere RT__NAME(rt__near_sphere, RT__LANES)
+#define rt__offer RT__NAME(rt__offer, RT__LANES)
+#define rt__owen RT__NAME(rt__owen, RT__LANES)
+#define rt__path RT__NAME(rt__path, RT__LANES)
+#define rt__ray_of_lane RT__NAME(rt__ray_of_lane, RT__LANES)
+#define rt__scale RT__NAME(rt__scale, RT__LANES)
+#define rt__select RT__NAME(rt__select, RT__LANES)
+#define rt__set_lane RT__NAME(rt__set_lane, RT__LANES)
+#define rt__sign RT__NAME(rt__sign, RT__LANES)
+#define rt__slab RT__NAME(rt__slab, RT__LANES)
+#define rt__splat RT__NAME(rt__splat, RT__LANES)
+#define rt__step_packets RT__NAME(rt__step_packets, RT__LANES)
+#define rt__sub RT__NAME(rt__sub, RT__LANES)
+#define rt__terms RT__NAME(rt__terms, RT__LANES)
+#define rt__to_unit RT__NAME(rt__to_unit, RT__LANES)
+#define rt__vec RT__NAME(rt__vec, RT__LANES)
+#define rt__vhalves RT__NAME(rt__vhalves, RT__LANES)
+#define rt__vjoin RT__NAME(rt__vjoin, RT__LANES)
+#define rt__vselect RT__NAME(rt__vselect, RT__LANES)
+
+typedef float rt__f __attribute__((vector_size(4 * RT__LANES)));
+typedef int32_t rt__m __attribute__((vector_size(4 * RT__LANES))); /* -1 true, 0 false */
+typedef uint32_t rt__u __attribute__((vector_size(4 * RT__LANES)));
+typedef double rt__d __attribute__((vector_size(4 * RT__LANES))); /* of half the lanes */
+typedef int64_t rt__l __attribute__((vector_size(4 * RT__LANES)));
+
+typedef struct rt__f3 {
+    rt__f x, y, z;
+} rt__f3;
+
+typedef struct rt__d3 {
+    rt__d x, y, z;
+} rt__d3;
+
+/* ---- what is the machine's own ------------------------------------------------------ */
+
+#if RT__LANES == 8 /* AVX2 */
+RT__INLINE rt__f rt__fsqrt(rt__f v)
+{
+    return (rt__f)_mm256_sqrt_ps((__m256)v);
+}
+RT__INLINE rt__d rt__dsqrt(rt__d v)
+{
+    return (rt__d)_mm256_sqrt_pd((__m256d)v);
+}
+RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
+{
+    return (rt__f)_mm256_min_ps((__m256)a, (__m256)b);
+}
+RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
+{
+    return (rt__f)_mm256_max_ps((__m256)a, (__m256)b);
+}
+RT__INLINE rt__f rt__select(rt__m mask, rt__f yes, rt__f no)
+{
+    return (rt__f)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)mask);
+}
+RT__INLINE int rt__bits(rt__m mask) /* bit i is set where lane i is true */
+{
+    return _mm256_movemask_ps((__m256)mask);
+}
+RT__INLINE void rt__halves(rt__f v, rt__d *two)
+{
+    two[0] = (rt__d)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)v));
+    two[1] = (rt__d)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)v, 1));
+}
+RT__INLINE rt__f rt__join(const rt__d *two)
+{
+    return (rt__f)_mm256_insertf128_ps(
+        _mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)two[0])),
+        _mm256_cvtpd_ps((__m256d)two[1]), 1);
+}
+RT__INLINE rt__f rt__fma(rt__f a, rt__f b, rt__f c) /* a b + c */
+{
+    return (rt__f)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+}
+RT__INLINE rt__f rt__fnma(rt__f a, rt__f b, rt__f c) /* c - a b */
+{
+    return (rt__f)_mm256_fnmadd_ps((__m256)a, (__m256)b, (__m256)c);
+}
+/* The first 8 floats of the shapes at the 8 places: 8 rows, read as columns. */
+RT__INLINE void rt__gather(const rt__shape *shapes, rt__m places, rt__f *field)
+{
+    __m256 r[8], t[8];
+    for (int i = 0; i < 8; i++)
+        r[i] = _mm256_loadu_ps((const float *)((const char *)shapes + places[i]));
+    for (int i = 0; i < 8; i += 2) {
+        t[i] = _mm256_unpacklo_ps(r[i], r[i + 1]);
+        t[i + 1] = _mm256_unpackhi_ps(r[i], r[i + 1]);
+    }
+    for (int i = 0; i < 8; i += 4)
+        for (int k = 0; k < 2; k++) {
+            r[i + 2 * k] = _mm256_shuffle_ps(t[i + k], t[i + k + 2], 0x44);
+            r[i + 2 * k + 1] = _mm256_shuffle_ps(t[i + k], t[i + k + 2], 0xee);
+        }
+    for (int i = 0; i < 4; i++) {
+        field[i] = (rt__f)_mm256_permute2f128_ps(r[i], r[i + 4], 0x20);
+        field[i + 4] = (rt__f)_mm256_permute2f128_ps(r[i], r[i + 4], 0x31);
+    }
+}
+#elif defined(RT__X86) /* SSE2 */
+RT__INLINE rt__f rt__fsqrt(rt__f v)
+{
+    return (rt__f)_mm_sqrt_ps((__m128)v);
+}
+RT__INLINE rt__d rt__dsqrt(rt__d v)
+{
+    return (rt__d)_mm_sqrt_pd((__m128d)v);
+}
+RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
+{
+    return (rt__f)_mm_min_ps((__m128)a, (__m128)b);
+}
+RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
+{
+    return (rt__f)_mm_max_ps((__m128)a, (__m128)b);
+}
+RT__INLINE rt__f rt__select(rt__m mask, rt__f yes, rt__f no)
+{
+    mask = mask >> 31;
+    return (rt__f)((mask & (rt__m)yes) | (~mask & (rt__m)no));
+}
+RT__INLINE int rt__bits(rt__m mask)
+{
+    return _mm_movemask_ps((__m128)mask);
+}
+RT__INLINE void rt__halves(rt__f v, rt__d *two)
+{
+    two[0] = (rt__d)_mm_cvtps_pd((__m128)v);
+    two[1] = (rt__d)_mm_cvtps_pd(_mm_movehl_ps((__m128)v, (__m128)v));
+}
+RT__INLINE rt__f rt__join(const rt__d *two)
+{
+    return (rt__f)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)two[0]),
+                                _mm_cvtpd_ps((__m128d)two[1]));
+}
+#else                  /* NEON, 64 bits */
+RT__INLINE rt__f rt__fsqrt(rt__f v)
+{
+    return (rt__f)vsqrtq_f32((float32x4_t)v);
+}
+RT__INLINE rt__d rt__dsqrt(rt__d v)
+{
+    return (rt__d)vsqrtq_f64((float64x2_t)v);
+}
+RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
+{
+    return (rt__f)vminq_f32((float32x4_t)a, (float32x4_t)b);
+}
+RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
+{
+    return (rt__f)vmaxq_f32((float32x4_t)a, (float32x4_t)b);
+}
+RT__INLINE rt__f rt__select(rt__m mask, rt__f yes, rt__f no)
+{
+    return (rt__f)vbslq_f32((uint32x4_t)(mask >> 31), (float32x4_t)yes, (float32x4_t)no);
+}
+RT__INLINE int rt__bits(rt__m mask)
+{
+    const rt__m weights = {1, 2, 4, 8};
+    return vaddvq_s32((int32x4_t)((mask >> 31) & weights));
+}
+RT__INLINE void rt__halves(rt__f v, rt__d *two)
+{
+    two[0] = (rt__d)vcvt_f64_f32(vget_low_f32((float32x4_t)v));
+    two[1] = (rt__d)vcvt_high_f64_f32((float32x4_t)v);
+}
+RT__INLINE rt__f rt__join(const rt__d *two)
+{
+    return (rt__f)vcvt_high_f32_f64(vcvt_f32_f64((float64x2_t)two[0]),
+                                    (float64x2_t)two[1]);
+}
+#endif
+
+RT__INLINE rt__d rt__dselect(rt__l mask, rt__d yes, rt__d no)
+{
+    return (rt__d)((mask & (rt__l)yes) | (~mask & (rt__l)no));
+}
+
+/* True where v < 0: a mask counts as true where its sign bit is set. */
+RT__INLINE rt__m rt__sign(rt__f v)
+{
+    return (rt__m)v;
+}
+
+#if RT__LANES == 4
+RT__INLINE rt__f rt__fma(rt__f a, rt__f b, rt__f c)
+{
+    return a * b + c;
+}
+RT__INLINE rt__f rt__fnma(rt__f a, rt__f b, rt__f c)
+{
+    return c - a * b;
+}
+RT__INLINE void rt__gather(const rt__shape *shapes, rt__m places, rt__f *field)
+{
+    for (int k = 0; k < 8; k++) {
+        const char *row = (const char *)(&shapes->center.x + k);
+        const rt__f column = {
+            *(const float *)(row + places[0]), *(const float *)(row + places[1]),
+            *(const float *)(row + places[2]), *(const float *)(row + places[3])};
+        field[k] = column;
+    }
+}
+#endif
+
+/* ---- chapter 0 ---------------------------------------------------------------------- */
+
+RT__INLINE rt__f rt__splat(float v)
+{
+    const rt__f zero = {0.0f};
+    return v - zero;
+}
+
+RT__INLINE rt__f rt__fabs(rt__f v)
+{
+    return (rt__f)((rt__m)v & 0x7fffffff);
+}
+
+RT__INLINE rt__f3 rt__vec(rt__f x, rt__f y, rt__f z)
+{
+    rt__f3 v;
+    v.x = x;
+    v.y = y;
+    v.z = z;
+    return v;
+}
+
+RT__INLINE rt__f3 rt__all(rt_vec3 v)
+{
+    return rt__vec(rt__splat(v.x), rt__splat(v.y), rt__splat(v.z));
+}
+
+RT__INLINE rt__f3 rt__add(rt__f3 a, rt__f3 b)
+{
+    return rt__vec(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+RT__INLINE rt__f3 rt__sub(rt__f3 a, rt__f3 b)
+{
+    return rt__vec(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+RT__INLINE rt__f3 rt__mul(rt__f3 a, rt__f3 b)
+{
+    return rt__vec(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+
+RT__INLINE rt__f3 rt__scale(rt__f3 v, rt__f k)
+{
+    return rt__vec(k * v.x, k * v.y, k * v.z);
+}
+
+RT__INLINE rt__f rt__dot(rt__f3 a, rt__f3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+RT__INLINE rt__f3 rt__vselect(rt__m mask, rt__f3 yes, rt__f3 no)
+{
+    return rt__vec(rt__select(mask, yes.x, no.x), rt__select(mask, yes.y, no.y),
+                   rt__select(mask, yes.z, no.z));
+}
+
+RT__INLINE rt__d rt__ddot(rt__d3 a, rt__d3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+RT__INLINE rt__d3 rt__dsub(rt__d3 a, rt__d3 b)
+{
+    a.x = a.x - b.x;
+    a.y = a.y - b.y;
+    a.z = a.z - b.z;
+    return a;
+}
+
+RT__INLINE rt__d3 rt__dscale(rt__d3 v, rt__d k)
+{
+    v.x = k * v.x;
+    v.y = k * v.y;
+    v.z = k * v.z;
+    return v;
+}
+
+RT__INLINE rt__d3 rt__dmad(rt__d3 a, rt__d k, rt__d3 b)
+{
+    a.x = a.x + k * b.x;
+    a.y = a.y + k * b.y;
+    a.z = a.z + k * b.z;
+    return a;
+}
+
+RT__INLINE void rt__vhalves(rt__f3 v, rt__d3 *two)
+{
+    rt__d x[2], y[2], z[2];
+    rt__halves(v.x, x);
+    rt__halves(v.y, y);
+    rt__halves(v.z, z);
+    for (int h = 0; h < 2; h++) {
+        two[h].x = x[h];
+        two[h].y = y[h];
+        two[h].z = z[h];
+    }
+}
+
+RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
+{
+    const rt__d x[2] = {two[0].x, two[1].x}, y[2] = {two[0].y, two[1].y},
+                z[2] = {two[0].z, two[1].z};
+    return rt__vec(rt__join(x), rt__join(y), rt__join(z));
+}
+
+/* ---- chapters 1 to 3: the nearest hit ----------------------------------------------- */
+
+/* The rays of a packet. Those that leave a sphere carry with them which one: it is at t =
+ * 0, within rounding, and that must not be taken for a hit. */
+typedef struct rt__rays {
+    rt__f3 origin, direction;
+    rt__f3 inverse;        /* 1/u, finite also where u = 0 */
+    rt__f a;               /* <u,u> */
+    rt__f ou, oo, size;    /* <C,u>, <C,C> and |C|, the latter scaled as rt__shape.size */
+    rt__f3 twice;          /* 2 C */
+    rt__m outside, inside; /* the sphere that is left, on its outside or inside; or -1 */
+} rt__rays;
+
+RT__INLINE rt__f rt__invert(rt__f u)
+{
+    return 1.0f / rt__select(rt__sign(rt__fabs(u) - 1e-29f), rt__splat(1e-29f), u);
+}
+
+RT__INLINE void rt__aim(rt__rays *r, rt__f3 origin, rt__f3 direction, rt__m outside,
+                        rt__m inside)
+{
+    r->origin = origin;
+    r->direction = direction;
+    r->inverse = rt__vec(rt__invert(direction.x), rt__invert(direction.y),
+                         rt__invert(direction.z));
+    r->a = rt__dot(direction, direction);
+    r->ou = rt__dot(origin, direction);
+    r->oo = rt__dot(origin, origin);
+    r->size = rt__fsqrt(r->oo) * RT__DOUBT;
+    r->twice = rt__add(origin, origin);
+    r->outside = outside;
+    r->inside = inside;
+}
+
+RT__INLINE rt_ray rt__ray_of_lane(const rt__rays *r, int lane)
+{
+    rt_ray ray;
+    ray.origin = rt_vec(r->origin.x[lane], r->origin.y[lane], r->origin.z[lane]);
+    ray.direction =
+        rt_vec(r->direction.x[lane], r->direction.y[lane], r->direction.z[lane]);
+    return ray;
+}
+
+/* b and c of rt_hit_sphere, in float:
+ *
+ *     b = <C - O, u> = <C,u> - <O,u>,    c = |C - O|^2 - R^2 = <C,C> - <O,2C> + power,
+ *
+ * of which much is the same for all spheres; and the small difference of the large |O|^2
+ * and R^2, the power, was taken in double. With s = |C| + max(|O|, R), no number on the
+ * way is larger than s^2 |u|^2, and each rounding is 2^-24 of it at most. So
+ *
+ *     error of c  and  of (b^2 - a c) / a  <  doubt = 2^-19 s^2,
+ *     error of b / |u|                     <  2^-21 s.
+ *
+ * size is s times RT__DOUBT, of which the square is 2^-19. */
+RT__INLINE void rt__terms(const rt__rays *r, const rt__shape *shape, rt__f *b, rt__f *c,
+                          rt__f *size)
+{
+    const rt__f3 center = rt__all(shape->center);
+    *b = rt__fnma(
+        center.x, r->direction.x,
+        rt__fnma(center.y, r->direction.y, rt__fnma(center.z, r->direction.z, r->ou)));
+    *c = rt__fnma(center.x, r->twice.x,
+                  rt__fnma(center.y, r->twice.y,
+                           rt__fnma(center.z, r->twice.z, r->oo + shape->power)));
+    *size = r->size + shape->size;
+}
+
+/* Where the rays enter and leave a box, within 2^-22 of t. */
+RT__INLINE void rt__slab(const rt__rays *r, rt_vec3 min, rt_vec3 max, rt__f *t_in,
+                         rt__f *t_out)
+{
+    const rt__f3 low = rt__mul(rt__sub(rt__all(min), r->origin), r->inverse);
+    const rt__f3 high = rt__mul(rt__sub(rt__all(max), r->origin), r->inverse);
+    *t_in = rt__fmax(rt__fmax(rt__fmin(low.x, high.x), rt__fmin(low.y, high.y)),
+                     rt__fmin(low.z, high.z));
+    *t_out = rt__fmin(rt__fmin(rt__fmax(low.x, high.x), rt__fmax(low.y, high.y)),
+                      rt__fmax(low.z, high.z));
+}
+
+/* The nearest shape so far: its t is low or more, that of all others is others or more.
+ * FLT_MAX: none. */
+typedef struct rt__nearest {
+    rt__f low, others;
+    rt__m at; /* its place in bvh->shapes, in bytes */
+} rt__nearest;
+
+/* A shape that the rays may meet, at low or beyond. */
+RT__INLINE void rt__offer(rt__nearest *n, rt__m may, rt__f low, rt__m at)
+{
+    low = rt__select(may, low, rt__splat(FLT_MAX));
+    const rt__m nearer = low < n->low;
+    n->others = rt__fmin(n->others, rt__fmax(n->low, low));
+    n->low = rt__fmin(n->low, low);
+    n->at = (rt__m)rt__select(nearer, (rt__f)at, (rt__f)n->at);
+}
+
+/* Chapter 1: t = (-b -+ root) / a. Outside the sphere (c > 0) the smaller root is the one,
+ * if the sphere is ahead (b < 0); inside the larger. When in doubt, the smaller one, and a
+ * root that may be too large: low may be too low, but not too high. */
+RT__INLINE void rt__near_sphere(const rt__rays *r, rt__f less_over_a, rt__f slack,
+                                const rt__shape *shape, rt__m at, rt__nearest *n)
+{
+    rt__f b, c, size;
+    rt__terms(r, shape, &b, &c, &size);
+    const rt__f doubt = size * size, twice = doubt + doubt;
+    const rt__f discriminant = rt__fma(r->a, doubt - c, b * b);
+    const rt__f root = rt__fsqrt(rt__fmax(discriminant, rt__splat(0.0f)));
+    const rt__m inside = rt__sign(c + twice) | (r->inside == at);
+    const rt__m may = (rt__sign(b) | rt__sign(c - twice)) &
+                      ~(rt__sign(discriminant) | (r->outside == at));
+    const rt__f t = less_over_a * (b + rt__select(inside, -root, root));
+    rt__offer(n, may, rt__fnma(size, slack, t), at);
+}
+
+/* Chapter 3: the ways in and out of the slabs. */
+RT__INLINE void rt__near_box(const rt__rays *r, const rt__shape *shape, rt__m at,
+                             rt__nearest *n)
+{
+    rt__f t_in, t_out;
+    rt__slab(r, shape->center, shape->max, &t_in, &t_out);
+    const rt__f doubt = (rt__fabs(t_in) + rt__fabs(t_out)) * (4.0f * FLT_EPSILON);
+    const rt__m may = ~(rt__sign(t_out - t_in + doubt) | rt__sign(t_out));
+    const rt__f t = rt__select(t_in > 0.0f, t_in, t_out);
+    rt__offer(n, may, t - doubt, at);
+}
+
+/* What rt_hit says, for a packet, with what chapter 7 wants to know of the material. */
+typedef struct rt__hits {
+    rt__m found, mirror;
+    rt__m outside, inside; /* the place of the sphere that was hit from there, or -1 */
+    rt__f3 point, normal, albedo;
+} rt__hits;
+
+/* One lane found this. */
+static inline void rt__set_lane(rt__hits *hits, int lane, const rt_hit *hit)
+{
+    hits->found[lane] = -1;
+    hits->mirror[lane] = hit->material->mirror ? -1 : 0;
+    hits->outside[lane] = hits->inside[lane] = -1;
+    hits->point.x[lane] = hit->point.x;
+    hits->point.y[lane] = hit->point.y;
+    hits->point.z[lane] = hit->point.z;
+    hits->normal.x[lane] = hit->normal.x;
+    hits->normal.y[lane] = hit->normal.y;
+    hits->normal.z[lane] = hit->normal.z;
+    hits->albedo.x[lane] = hit->material->albedo.x;
+    hits->albedo.y[lane] = hit->material->albedo.y;
+    hits->albedo.z[lane] = hit->material->albedo.z;
+}
+
+/* Chapters 1 to 3, one ray at a time, for the lanes that the packet is not sure of. */
+static __attribute__((noinline)) void rt__ask(const rt_scene *scene, const rt__rays *r,
+                                              rt__m lanes, const rt__nearest *n,
+                                              rt__hits *hits)
+{
+    for (int lane = 0; lane < RT__LANES; lane++) {
+        if (lanes[lane] >= 0)
+            continue;
+        const rt_ray ray = rt__ray_of_lane(r, lane);
+        const int number = n->at[lane] / (int)sizeof(rt__shape);
+        rt_hit hit;
+        hits->found[lane] = 0;
+        if ((rt__hit_shape(scene, number, &ray, &hit) && hit.t < n->others[lane]) ||
+            rt_intersect(scene, &ray, &hit))
+            rt__set_lane(hits, lane, &hit);
+    }
+}
+
+/* rt_hit_sphere once more, to the end and in double, each lane with the sphere that is
+ * nearest to it. */
+RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes,
+                           const rt__nearest *n, rt__hits *hits)
+{
+    const rt__m none = n->low == FLT_MAX;
+    const rt__d nought = {0.0};
+    rt__f field[8]; /* center, radius, albedo, kind */
+    rt__gather(scene->bvh->shapes, n->at, field);
+    rt__d3 o[2], u[2], center[2], points[2], normals[2];
+    rt__d radius[2], ts[2], aways[2];
+    rt__vhalves(r->origin, o);
+    rt__vhalves(r->direction, u);
+    rt__vhalves(rt__vec(field[0], field[1], field[2]), center);
+    rt__halves(field[3], radius);
+    for (int h = 0; h < 2; h++) {
+        const rt__d3 f = rt__dsub(o[h], center[h]);
+        const rt__d a = rt__ddot(u[h], u[h]), b = rt__ddot(f, u[h]);
+        const rt__d c = rt__ddot(f, f) - radius[h] * radius[h];
+        const rt__d root = rt__dsqrt(b * b - a * c), first = -b - root;
+        ts[h] = rt__dselect(first > nought, first, -b + root) / a;
+        const rt__d3 m = rt__dmad(f, ts[h], u[h]);
+        const rt__d k = 1.0 / rt__dsqrt(rt__ddot(m, m));
+        const rt__d3 normal = rt__dscale(m, k);
+        points[h] = rt__dmad(center[h], radius[h], normal);
+        const rt__d away = rt__ddot(normal, u[h]);
+        normals[h] =
+            rt__dscale(normal, rt__dselect(away > nought, nought - 1.0, nought + 1.0));
+        aways[h] = away;
+    }
+    const rt__f t = rt__join(ts), kind = field[7];
+    const rt__m within = rt__join(aways) > 0.0f;
+    hits->found = ~none;
+    hits->mirror = kind == 1.0f;
+    hits->outside = n->at | within;
+    hits->inside = n->at | ~within;
+    hits->point = rt__vjoin(points);
+    hits->normal = rt__vjoin(normals);
+    hits->albedo = rt__vec(field[4], field[5], field[6]);
+    /* surely a sphere, the nearest, and by the root that chapter 1 would have taken */
+    const rt__m good = none | ((kind < 2.0f) & (t > 1e-30f) & (t < n->others) &
+                               (hits->normal.x == hits->normal.x));
+    const rt__m ask = lanes & ~good;
+    if (rt__bits(ask) != 0)
+        rt__ask(scene, r, ask, n, hits);
+}
+
+/* rt_intersect of a scene with few shapes: all rays ask one shape after the other. */
+RT__INLINE void rt__find(const rt_scene *scene, const rt__rays *r, rt__m lanes,
+                         rt__hits *hits)
+{
+    const rt_bvh *bvh = scene->bvh;
+    const rt__shape *shape = bvh->shapes, *const boxes = shape + bvh->sphere_count,
+                    *const end = boxes + bvh->box_count;
+    const rt__f less_over_a = -1.0f / r->a;
+    const rt__f slack = rt__fsqrt(-less_over_a) * (0x1p-20f / RT__DOUBT);
+    rt__m at = lanes & ~lanes;
+    rt__nearest n;
+    n.low = n.others = rt__splat(FLT_MAX);
+    n.at = at;
+    for (; shape < boxes; shape++, at += (int)sizeof *shape)
+        rt__near_sphere(r, less_over_a, slack, shape, at, &n);
+    for (; shape < end; shape++, at += (int)sizeof *shape)
+        rt__near_box(r, shape, at, &n);
+    rt__finish(scene, r, lanes, &n, hits);
+}
+
+/* rt__enter: now the lanes are the boxes of the node. */
+RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
+                                    rt_vec3 inverse, float t_max, float *t)
+{
+    unsigned result = 0;
+    for (int k = 0; k < 8; k += RT__LANES) {
+        rt__f3 min, max;
+        memcpy(&min.x, node->min_x + k, sizeof min.x);
+        memcpy(&min.y, node->min_y + k, sizeof min.y);
+        memcpy(&min.z, node->min_z + k, sizeof min.z);
+        memcpy(&max.x, node->max_x + k, sizeof max.x);
+        memcpy(&max.y, node->max_y + k, sizeof max.y);
+        memcpy(&max.z, node->max_z + k, sizeof max.z);
+        const rt__f3 low = rt__mul(rt__sub(min, rt__all(ray->origin)), rt__all(inverse));
+        const rt__f3 high = rt__mul(rt__sub(max, rt__all(ray->origin)), rt__all(inverse));
+        const rt__f t_in =
+            rt__fmax(rt__fmax(rt__fmin(low.x, high.x), rt__fmin(low.y, high.y)),
+                     rt__fmax(rt__fmin(low.z, high.z), rt__splat(0.0f)));
+        const rt__f t_out =
+            rt__fmin(rt__fmin(rt__fmax(low.x, high.x), rt__fmax(low.y, high.y)),
+                     rt__fmin(rt__fmax(low.z, high.z), rt__splat(t_max)));
+        const rt__f early = t_in * (1.0f - 4.0f * FLT_EPSILON);
+        memcpy(t + k, &early, sizeof early);
+        result |= (unsigned)rt__bits(early <= t_out) << k;
+    }
+    return result & ((1u << node->count) - 1u);
+}
+
+/* rt_intersect and rt_occluded of a scene with a tree: rays that were scattered find their
+ * way through it one by one, and look at eight boxes at a time. */
+static __attribute__((noinline)) void
+rt__find_in_tree(const rt_scene *scene, const rt__rays *r, rt__m lanes, rt__hits *hits)
+{
+    hits->found = lanes & ~lanes;
+    for (int lane = 0; lane < RT__LANES; lane++) {
+        if (lanes[lane] >= 0)
+            continue;
+        const rt_ray ray = rt__ray_of_lane(r, lane);
+        const int number = rt__search(scene, &ray, FLT_MAX, false, rt__enter_lanes);
+        rt_hit hit;
+        if (number >= 0 && rt__hit_shape(scene, number, &ray, &hit))
+            rt__set_lane(hits, lane, &hit);
+    }
+}
+
+static __attribute__((noinline)) rt__m rt__blocked_in_tree(const rt_scene *scene,
+                                                           const rt__rays *r, rt__m lanes)
+{
+    for (int lane = 0; lane < RT__LANES; lane++)
+        if (lanes[lane] < 0) {
+            const rt_ray ray = rt__ray_of_lane(r, lane);
+            lanes[lane] =
+                rt__search(scene, &ray, 1.0f, true, rt__enter_lanes) >= 0 ? -1 : 0;
+        }
+    return lanes;
+}
+
+/* ---- chapter 4 ---------------------------------------------------------------------- */
+
+/* What stands between the origins (t = 0) and the light (t = 1)? sure: that does; unsure:
+ * that may. */
+typedef struct rt__shade {
+    rt__m sure, unsure;
+} rt__shade;
+
+/* No root is needed. Let f(t) = |C + t u - O|^2 - R^2 = a t^2 + 2 b t + c, so f(0) = c,
+ * f(1) = a + 2b + c; f is negative inside the sphere. If both ends are outside, then the
+ * sphere is in the way if the point nearest to its centre, t = -b/a, is on the way and
+ * inside: discriminant > 0. If an end is inside, or too close to the surface to tell: if
+ * one end is inside and the other is not, then the way crosses the surface. */
+RT__INLINE void rt__blocks_sphere(const rt__rays *r, rt__m lanes, const rt__shape *shape,
+                                  rt__m at, rt__shade *shade)
+{
+    rt__f b, c, size;
+    rt__terms(r, shape, &b, &c, &size);
+    const rt__f doubt = size * size, twice = doubt + doubt, a = r->a;
+    const rt__f end = rt__fma(b, rt__splat(2.0f), a) + c;
+    const rt__f discriminant = rt__fnma(a, c, b * b);
+    const rt__m left = r->outside == at;
+    const rt__m passes = rt__sign(b) & ~(rt__sign(a + b) | left);
+    const rt__m no_doubt = ~rt__sign(rt__fnma(a, doubt, discriminant));
+    const rt__m possible = ~rt__sign(rt__fma(a, doubt, discriminant));
+    const rt__m ends = rt__sign(rt__fmin(c, end) - twice) & lanes & ~left;
+    if (__builtin_expect(rt__bits(ends) == 0, 1)) {
+        shade->sure |= passes & no_doubt;
+        shade->unsure |= passes & possible;
+    } else {
+        const rt__f start = rt__select(r->inside == at, -twice - twice, c);
+        const rt__m unclear =
+            rt__sign(rt__fabs(start) - twice) | rt__sign(rt__fabs(end) - twice);
+        const rt__m crosses = rt__sign(start) ^ rt__sign(end);
+        const rt__m out = ~(rt__sign(start) | rt__sign(end)) & passes;
+        shade->sure |= (crosses | (out & no_doubt)) & ~unclear & ~left;
+        shade->unsure |= (unclear | (out & possible)) & ~left;
+    }
+}
+
+RT__INLINE void rt__blocks_box(const rt__rays *r, const rt__shape *shape,
+                               rt__shade *shade)
+{
+    const rt__f few = rt__splat(4.0f * FLT_EPSILON), zero = rt__splat(0.0f);
+    rt__f t_in, t_out;
+    rt__slab(r, shape->center, shape->max, &t_in, &t_out);
+    const rt__f t = rt__select(t_in > zero, t_in, t_out), long_in = t_out - t_in;
+    const rt__m doubt =
+        rt__sign(rt__fabs(long_in) - (rt__fabs(t_in) + rt__fabs(t_out)) * few) |
+        rt__sign(rt__fabs(t - 1.0f) - few - few) | (t_in == zero) | (t_out == zero);
+    const rt__m blocks = (t_in <= t_out) & (t > zero) & (t < 1.0f);
+    shade->sure |= blocks & ~doubt;
+    shade->unsure |= doubt;
+}
+
+/* rt_occluded up to t = 1, for the lanes that the packet is not sure of. */
+static __attribute__((noinline)) rt__m rt__ask_shadow(const rt_scene *scene,
+                                                      const rt__rays *r, rt__m lanes)
+{
+    for (int lane = 0; lane < RT__LANES; lane++)
+        if (lanes[lane] < 0) {
+            const rt_ray ray = rt__ray_of_lane(r, lane);
+            lanes[lane] = rt_occluded(scene, &ray, 1.0f) ? -1 : 0;
+        }
+    return lanes;
+}
+
+/* rt_occluded up to t = 1, of a scene with few shapes. */
+RT__INLINE rt__m rt__blocked(const rt_scene *scene, const rt__rays *r, rt__m lanes)
+{
+    const rt_bvh *bvh = scene->bvh;
+    const rt__shape *shape = bvh->shapes, *const boxes = shape + bvh->sphere_count,
+                    *const end = boxes + bvh->box_count;
+    rt__m at = lanes & ~lanes;
+    rt__shade shade;
+    shade.sure = shade.unsure = at;
+    for (; shape < boxes; shape++, at += (int)sizeof *shape)
+        rt__blocks_sphere(r, lanes, shape, at, &shade);
+    for (; shape < end; shape++)
+        rt__blocks_box(r, shape, &shade);
+    const rt__m sure = shade.sure >> 31, unsure = lanes & (shade.unsure >> 31) & ~sure;
+    if (rt__bits(unsure) != 0)
+        return sure | rt__ask_shadow(scene, r, unsure);
+    return sure;
+}
+
+/* rt_leave. */
+RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__f3 direction)
+{
+    const rt__f size = rt__fmax(rt__fmax(rt__splat(1.0f), rt__fabs(point.x)),
+                                rt__fmax(rt__fabs(point.y), rt__fabs(point.z)));
+    const rt__f offset = size * (8.0f * FLT_EPSILON);
+    const rt__m below = rt__dot(normal, direction) < 0.0f;
+    return rt__add(point, rt__scale(normal, rt__select(below, -offset, offset)));
+}
+
+/* rt_direct and rt_lambert; *rays counts the rays of each lane. */
+RT__INLINE rt__f3 rt__light(const rt_scene *scene, rt__m lanes, const rt__hits *hits,
+                            rt__m *rays)
+{
+    const rt__f zero = rt__splat(0.0f);
+    rt__f3 sum = rt__vec(zero, zero, zero);
+    for (int i = 0; i < scene->light_count; i++) {
+        const rt__f3 position = rt__all(scene->lights[i].position);
+        const rt__f3 to_light = rt__sub(position, hits->point);
+        const rt__f toward = rt__dot(hits->normal, to_light);
+        const rt__m lit = lanes & (toward > 0.0f);
+        if (rt__bits(lit) == 0)
+            continue;
+        *rays -= lit;
+        rt__rays shadow;
+        const rt__f3 origin = rt__leave(hits->point, hits->normal, to_light);
+        rt__aim(&shadow, origin, rt__sub(position, origin), hits->outside, hits->inside);
+        const rt__m blocked = scene->bvh->shapes
+                                  ? rt__blocked(scene, &shadow, lit)
+                                  : rt__blocked_in_tree(scene, &shadow, lit);
+        const rt__f dd = rt__dot(to_light, to_light);
+        const rt__m counts = lit & ~blocked & (dd > 1e-20f) & (dd <= FLT_MAX);
+        const rt__f cosine = toward / rt__fsqrt(dd);
+        const rt__f3 light =
+            rt__scale(rt__mul(hits->albedo, rt__all(scene->lights[i].intensity)),
+                      cosine / (3.14159265359f * dd));
+        sum = rt__vselect(counts, rt__add(sum, light), sum);
+    }
+    return sum;
+}
+
+/* ---- chapters 7 and 9: random numbers, directions ----------------------------------- */
+
+/* rt_hash, rt__reverse, rt__scramble */
+RT__INLINE rt__u rt__mix(rt__u v)
+{
+    const rt__u state = v * 747796405u + 2891336453u;
+    const rt__u word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+    return (word >> 22) ^ word;
+}
+
+RT__INLINE rt__u rt__backwards(rt__u v)
+{
+#if RT__LANES == 8 /* bytes in reverse order, and a table for each half of a byte */
+    const __m256i bytes = _mm256_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203,
+                                            0x0c0d0e0f08090a0b, 0x0405060700010203);
+    const __m256i table = _mm256_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800,
+                                            0x0f070b030d050901, 0x0e060a020c040800);
+    const rt__u zero = {0}, halves = zero + 0x0f0f0f0fu;
+    const rt__u w = (rt__u)_mm256_shuffle_epi8((__m256i)v, bytes);
+    return (rt__u)_mm256_shuffle_epi8(table, (__m256i)(w & halves)) << 4 |
+           (rt__u)_mm256_shuffle_epi8(table, (__m256i)(w >> 4 & halves));
+#else
+    v = v << 16 | v >> 16;
+    v = (v & 0x00ff00ffu) << 8 | (v >> 8 & 0x00ff00ffu);
+    v = (v & 0x0f0f0f0fu) << 4 | (v >> 4 & 0x0f0f0f0fu);
+    v = (v & 0x33333333u) << 2 | (v >> 2 & 0x33333333u);
+    return (v & 0x55555555u) << 1 | (v >> 1 & 0x55555555u);
+#endif
+}
+
+RT__INLINE rt__u rt__owen(rt__u v, rt__u key)
+{
+    v ^= v * 0x3d20adeau;
+    v += key;
+    v *= (key >> 16) | 1u;
+    v ^= v * 0x05526c56u;
+    return v ^ v * 0x53a22864u;
+}
+
+typedef struct rt__numbers {
+    rt__u key, dimension;
+    rt__u sample; /* its bits in reverse order */
+    bool sobol;
+} rt__numbers;
+
+RT__INLINE rt__f rt__to_unit(rt__u bits)
+{
+    return (__builtin_convertvector((rt__m)(bits >> 9), rt__f) + 0.5f) *
+           (1.0f / 8388608.0f);
+}
+
+/* rt_random, twice: all numbers are drawn in pairs. */
+RT__INLINE void rt__draw(rt__numbers *n, rt__m lanes, rt__f *r1, rt__f *r2)
+{
+    rt__u first, second;
+    if (n->sobol) {
+        const rt__u key = rt__mix(n->key + (n->dimension >> 1));
+        rt__u index = rt__backwards(rt__owen(n->sample, key));
+        first = rt__backwards(rt__owen(index, rt__mix(key + 1u)));
+        index ^= index >> 16 & 0x0000ffffu; /* rt__second */
+        index ^= index >> 8 & 0x00ff00ffu;
+        index ^= index >> 4 & 0x0f0f0f0fu;
+        index ^= index >> 2 & 0x33333333u;
+        index ^= index >> 1 & 0x55555555u;
+        second = rt__backwards(rt__owen(index, rt__mix(key + 2u)));
+    } else {
+        first = rt__mix(n->key + n->dimension);
+        second = rt__mix(n->key + n->dimension + 1u);
+    }
+    n->dimension += (rt__u)lanes & 2u;
+    *r1 = rt__to_unit(first);
+    *r2 = rt__to_unit(second);
+}
+
+/* rt_sincos of turns in (0, 1), rt_basis and rt_sample_cosine. */
+RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
+{
+    const rt__m quarter = __builtin_convertvector(r1 * 4.0f + 0.5f, rt__m);
+    const rt__f x =
+        (r1 * 4.0f - __builtin_convertvector(quarter, rt__f)) * 1.57079632679f;
+    const rt__f xx = x * x;
+    const rt__f s3 = -1.6666654611e-1f + xx * (8.3321608736e-3f - xx * 1.9515295891e-4f);
+    const rt__f c4 = 4.1666645683e-2f + xx * (-1.3887316255e-3f + xx * 2.4433157118e-5f);
+    const rt__f s = x + x * xx * s3;
+    const rt__f c = 1.0f + (xx * xx * c4 - 0.5f * xx);
+    const rt__m odd = (quarter & 1) != 0;
+    const rt__f sine_size = rt__select(odd, c, s), cosine_size = rt__select(odd, s, c);
+    const rt__f sine = rt__select((quarter & 2) != 0, -sine_size, sine_size);
+    const rt__f cosine = rt__select(((quarter + 1) & 2) != 0, -cosine_size, cosine_size);
+
+    const rt__f sign = rt__select(n.z < 0.0f, rt__splat(-1.0f), rt__splat(1.0f));
+    const rt__f k = -1.0f / (sign + n.z);
+    const rt__f m = n.x * n.y * k;
+    const rt__f3 a = rt__vec(1.0f + sign * n.x * n.x * k, sign * m, -sign * n.x);
+    const rt__f3 b = rt__vec(m, sign + n.y * n.y * k, -n.y);
+
+    const rt__f radius = rt__fsqrt(1.0f - r2);
+    return rt__add(rt__add(rt__scale(a, cosine * radius), rt__scale(b, sine * radius)),
+                   rt__scale(n, rt__fsqrt(r2)));
+}
+
+/* ---- the whole path ----------------------------------------------------------------- */
+
+/* rt_radiance: *rays counts the rays of each lane. A lane whose path has ended stays until
+ * the last one ends. */
+RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
+                           rt__numbers *numbers, rt__m *rays)
+{
+    const rt_scene *scene = job->scene;
+    const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
+    rt__f3 sum = rt__vec(zero, zero, zero), throughput = rt__vec(one, one, one);
+    for (int bounce = 0;; bounce++) {
+        rt__hits hits;
+        *rays -= lanes;
+        if (scene->bvh->shapes)
+            rt__find(scene, r, lanes, &hits);
+        else
+            rt__find_in_tree(scene, r, lanes, &hits);
+        const rt__m missed = lanes & ~hits.found;
+        if (rt__bits(missed) != 0) {
+            const rt__f3 light = rt__mul(throughput, rt__all(scene->background));
+            sum = rt__vselect(missed, rt__add(sum, light), sum);
+            lanes &= hits.found;
+        }
+        const rt__m diffuse = lanes & ~hits.mirror;
+        const rt__f3 direct = rt__light(scene, diffuse, &hits, rays);
+        sum = rt__vselect(diffuse, rt__add(sum, rt__mul(throughput, direct)), sum);
+        if (bounce >= job->bounces || rt__bits(lanes) == 0)
+            return sum;
+
+        rt__f r1, r2;
+        rt__draw(numbers, diffuse, &r1, &r2);
+        const rt__f3 u = r->direction, n = hits.normal;
+        const rt__f3 reflected = rt__sub(u, rt__scale(n, 2.0f * rt__dot(u, n)));
+        const rt__f3 direction =
+            rt__vselect(hits.mirror, reflected, rt__cosine(n, r1, r2));
+        const rt__f3 rho = hits.albedo;
+        const rt__m lossless =
+            hits.mirror & (rho.x == 0.0f) & (rho.y == 0.0f) & (rho.z == 0.0f);
+        throughput = rt__vselect(lossless, throughput, rt__mul(throughput, rho));
+        lanes &= (throughput.x != 0.0f) | (throughput.y != 0.0f) | (throughput.z != 0.0f);
+        if (rt__bits(lanes) == 0)
+            return sum;
+        rt__aim(r, rt__leave(hits.point, n, direction), direction, hits.outside,
+                hits.inside);
+    }
+}
+
+/* rt__step_pixels with rt__pixel. */
+static uint64_t rt__step_packets(const rt__job *job, int first, int last)
+{
+    const int width = job->image->width;
+    const rt__film *film = &job->film;
+    uint32_t seed;
+    const uint32_t sample = rt__sequence(job, &seed);
+    const bool sobol = job->options.sampler == RT_SOBOL;
+    const rt__u none = {0};
+    const rt__m nowhere = ~(rt__m)none;
+    rt__m rays = {0};
+    for (int i = first; i < last; i += RT__LANES) {
+        float xs[RT__LANES], ys[RT__LANES];
+        uint32_t pixels[RT__LANES];
+        int32_t inside[RT__LANES];
+        for (int lane = 0; lane < RT__LANES; lane++) {
+            pixels[lane] = (uint32_t)(i + lane);
+            inside[lane] = i + lane < last ? -1 : 0;
+            xs[lane] = (float)((i + lane) % width);
+            ys[lane] = (float)((i + lane) / width);
+        }
+        rt__f x, y, dx, dy;
+        rt__u pixel;
+        rt__m lanes;
+        memcpy(&x, xs, sizeof x);
+        memcpy(&y, ys, sizeof y);
+        memcpy(&pixel, pixels, sizeof pixel);
+        memcpy(&lanes, inside, sizeof lanes);
+
+        rt__numbers numbers; /* rt_rng_start or rt_sobol_start */
+        numbers.key = rt__mix(pixel + rt_hash((sobol ? 0 : sample) + rt_hash(seed)));
+        numbers.dimension = none;
+        numbers.sample = none + rt__reverse(sample);
+        numbers.sobol = sobol;
+        rt__draw(&numbers, lanes, &dx, &dy);
+        x = x + dx;
+        y = y + dy;
+
+        rt__rays r; /* rt__film_ray */
+        const rt__f to_right = film->size * (x - film->half_width);
+        const rt__f to_top = film->size * (film->half_height - y);
+        const rt__f3 toward = rt__add(rt__all(film->forward),
+                                      rt__add(rt__scale(rt__all(film->right), to_right),
+                                              rt__scale(rt__all(film->top), to_top)));
+        rt__d3 d[2];
+        rt__vhalves(toward, d);
+        for (int h = 0; h < 2; h++) {
+            const rt__d length = rt__dsqrt(rt__ddot(d[h], d[h]));
+            d[h] = rt__dscale(d[h], 1.0 / length);
+        }
+        rt__aim(&r, rt__all(film->position), rt__vjoin(d), nowhere, nowhere);
+        const rt__f3 value = rt__path(job, &r, lanes, &numbers, &rays);
+        for (int lane = 0; lane < RT__LANES && i + lane < last; lane++)
+            rt__record(job->image, i + lane,
+                       rt_vec(value.x[lane], value.y[lane], value.z[lane]));
+    }
+    uint64_t sum = 0;
+    for (int lane = 0; lane < RT__LANES; lane++)
+        sum += (uint32_t)rays[lane];
+    return sum;
+}
+
+#undef rt__d
+#undef rt__d3
+#undef rt__f
+#undef rt__f3
+#undef rt__hits
+#undef rt__l
+#undef rt__m
+#undef rt__nearest
+#undef rt__numbers
+#undef rt__rays
+#undef rt__shade
+#undef rt__u
+#undef rt__add
+#undef rt__aim
+#undef rt__all
+#undef rt__ask
+#undef rt__ask_shadow
+#undef rt__backwards
+#undef rt__bits
+#undef rt__blocked
+#undef rt__blocked_in_tree
+#undef rt__blocks_box
+#undef rt__blocks_sphere
+#undef rt__cosine
+#undef rt__ddot
+#undef rt__dmad
+#undef rt__dot
+#undef rt__draw
+#undef rt__dscale
+#undef rt__dselect
+#undef rt__dsqrt
+#undef rt__dsub
+#undef rt__enter_lanes
+#undef rt__fabs
+#undef rt__find
+#undef rt__find_in_tree
+#undef rt__finish
+#undef rt__fma
+#undef rt__fmax
+#undef rt__fmin
+#undef rt__fnma
+#undef rt__fsqrt
+#undef rt__gather
+#undef rt__halves
+#undef rt__invert
+#undef rt__join
+#undef rt__leave
+#undef rt__light
+#undef rt__mix
+#undef rt__mul
+#undef rt__near_box
+#undef rt__near_sphere
+#undef rt__offer
+#undef rt__owen
+#undef rt__path
+#undef rt__ray_of_lane
+#undef rt__scale
+#undef rt__select
+#undef rt__set_lane
+#undef rt__sign
+#undef rt__slab
+#undef rt__splat
+#undef rt__step_packets
+#undef rt__sub
+#undef rt__terms
+#undef rt__to_unit
+#undef rt__vec
+#undef rt__vhalves
+#undef rt__vjoin
+#undef rt__vselect
+#undef RT__NAME
+#undef RT__PASTE
+#endif /* RT__LANES */
 
 /*
  * Licence: take whichever of the two you prefer.

@@ -162,7 +162,7 @@ static void test_the_integrating_sphere(void **state)
     const double exact[] = {0.5, 0.75, 0.875, 0.984375};
     for (size_t i = 0; i < COUNT(bounces); i++) {
         rt_image image = new_image(80, 60);
-        rt_options options = {0, 0, 0, 0, NULL, NULL};
+        rt_options options = {0};
         options.samples = 4;
         options.bounces = bounces[i];
         assert_int_equal(rt_render(&scene, &camera, &options, &image), RT_OK);
@@ -371,7 +371,7 @@ static void test_demo_picture_is_that_of_rt_render(void **state)
 {
     (void)state;
     rt_image theirs = render_the_demo(80, 60, 3, 5), ours = new_image(80, 60);
-    rt_options options = {3, 5, 0, 5, NULL, NULL};
+    rt_options options = {.samples = 3, .bounces = 5, .seed = 5, .sampler = RT_RANDOM};
     assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &ours), RT_OK);
     assert_true(same_pixels(&theirs, &ours));
     assert_int_equal(theirs.rays, ours.rays);

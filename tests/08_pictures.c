@@ -184,6 +184,7 @@ static void test_more_samples_less_noise(void **state)
     for (int i = 0; i < 2; i++) {
         rt_options options = with(i == 0 ? 16 : 64, 0);
         options.seed = 1;
+        options.sampler = RT_RANDOM;
         rt_image image = render(40, 30, options);
         double sum = 0;
         for (int k = 0; k < 40 * 30; k++) {
@@ -374,11 +375,14 @@ static void test_bad_sizes_are_refused(void **state)
     const int sizes[][2] = {{0, 5},         {5, 0},         {-1, 5},     {5, -1},
                             {65536, 65536}, {65537, 65536}, {INT_MAX, 2}};
     for (size_t i = 0; i < COUNT(sizes); i++) {
-        rt_image image = {sizes[i][0], sizes[i][1], &pixel, 0, 0, 0};
+        rt_image image = {.width = sizes[i][0], .height = sizes[i][1], .pixels = &pixel};
         assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &image),
                          RT_BAD_SIZE);
     }
-    rt_image image = {1, 1, &pixel, 0, 1, 0}; /* done: more than there is */
+    rt_image image = {.width = 1,
+                      .height = 1,
+                      .pixels = &pixel,
+                      .done = 1}; /* done: more than there is */
     assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &image), RT_BAD_SIZE);
     image.done = -1;
     assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &image), RT_BAD_SIZE);
@@ -389,7 +393,7 @@ static void test_bad_options_are_refused(void **state)
 {
     (void)state;
     rt_vec3 pixel = {7, 7, 7};
-    rt_image image = {1, 1, &pixel, 0, 0, 0};
+    rt_image image = {.width = 1, .height = 1, .pixels = &pixel};
     const struct {
         int samples, bounces, threads, had;
         rt_status status;
@@ -423,7 +427,7 @@ static void test_bad_cameras_are_refused(void **state)
 {
     (void)state;
     rt_vec3 pixel = {7, 7, 7};
-    rt_image image = {1, 1, &pixel, 0, 0, 0};
+    rt_image image = {.width = 1, .height = 1, .pixels = &pixel};
     const rt_camera cameras[] = {
         {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 180},
         {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, -1},

@@ -8,15 +8,17 @@ static void test_help(void **state)
 {
     (void)state;
     expect(0,
-           "WIDTH HEIGHT|--samples|--bounces|--threads|--seed|--out|--no-window|--quiet",
+           "WIDTH HEIGHT|--samples|--error|--time|--bounces|--threads|--lanes|--sampler|"
+           "--seed|--out|--no-window|--quiet|(default random)",
            "demo07 --help");
+    expect(0, "(default sobol)|as many as the machine can", "demo09 --help");
 }
 
-static void test_all_seven_write_a_png_to_build(void **state)
+static void test_all_nine_write_a_png_to_build(void **state)
 {
     (void)state;
     assert_int_equal(mkdir("build", 0777), 0);
-    for (int i = 1; i <= 7; i++) {
+    for (int i = 1; i <= 9; i++) {
         static unsigned char bytes[100000];
         char arguments[100], path[40];
         snprintf(arguments, sizeof arguments, "demo0%d 40 30 --samples 2 --no-window", i);
@@ -62,6 +64,11 @@ static void test_one_thread_or_two_the_same_file(void **state)
     assert_int_equal(run("cmp 1.png 2.png"), 0);
     expect(0, "", "demo07 60 40 --samples 2 --no-window --seed 1 --out 3.png");
     assert_int_equal(run("cmp 1.png 3.png"), 1);
+    char cores[30]; /* 0 is the default: all cores */
+    snprintf(cores, sizeof cores, ", %d thread", rt_thread_count(0));
+    expect(0, cores, "demo07 60 40 --samples 2 --no-window --threads 0 --out 4.png");
+    expect(0, cores, "demo07 60 40 --samples 2 --no-window --out 5.png");
+    assert_int_equal(run("cmp 1.png 4.png && cmp 1.png 5.png"), 0);
 }
 
 static void test_quiet_is_quiet(void **state)
@@ -70,6 +77,149 @@ static void test_quiet_is_quiet(void **state)
     expect(0, "", "demo05 20 20 --samples 1 --quiet --out q.png");
     assert_string_equal(said, "");
     assert_true(exists("q.png"));
+    expect(0, "", "demo08 20 20 --samples 1 --quiet --out q.png --time 9");
+    assert_string_equal(said, "");
+    expect(0, "", "demo09 20 20 --samples 1 --quiet --out q.png --error 1");
+    assert_string_equal(said, "");
+    expect(0, "", "demo02 20 20 --samples 1 --quiet --out q.png --lanes 1");
+    assert_string_equal(said, "");
+}
+
+/* The closing line is "demo07: 0.12 s, 16 samples, error 1.23 %, ...": read two of them. */
+static void read_result(int *samples, double *error)
+{
+    const char *line = strrchr(said, ':');
+    *samples = -1;
+    *error = -1.0;
+    if (!line || sscanf(line, ": %*f s, %d samples, error %lf %%", samples, error) < 1)
+        fail_msg("no result in the last line of: %s", said);
+}
+
+static void test_error_ends_the_rendering(void **state)
+{
+    (void)state;
+    int samples, more;
+    double error;
+    expect(0, "40 x 30, samples until the error is 20 %, 5 bounces",
+           "demo07 40 30 --error 0.2 --no-window --out e.png");
+    read_result(&samples, &error);
+    assert_in_range(samples, 16, 60);
+    assert_true(error > 14.0 && error <= 20.0);
+    expect(0, "samples until the error is 5 %",
+           "demo07 40 30 --error .05 --no-window --out e.png");
+    read_result(&more, &error);
+    assert_in_range(more, 8 * samples, 32 * samples); /* 16 times as many, about */
+    assert_true(error > 4.0 && error <= 5.0);
+    expect(0, "", "demo07 40 30 --error 0.05 --sampler sobol --no-window --out e.png");
+    read_result(&samples, &error);
+    assert_true(samples < more && error <= 5.0);
+
+    expect(0, "", "demo07 40 30 --error 1000. --no-window --out e.png");
+    read_result(&samples, &error);
+    assert_int_equal(samples, 16); /* fewer are not believed */
+    expect(0, "at most 20 samples until the error is 1 %",
+           "demo07 40 30 --error 0.01 --samples 20 --no-window --out e.png");
+    read_result(&samples, &error);
+    assert_int_equal(samples, 20);
+    assert_true(error > 1.0);
+}
+
+static void test_the_error_is_said_where_it_is_known(void **state)
+{
+    (void)state;
+    expect(0, "", "demo07 40 30 --samples 4 --no-window --out e.png");
+    assert_null(strstr(said, "error"));
+    expect(0, "1 sample, error unknown",
+           "demo07 40 30 --samples 1 --error 1 --no-window --out e.png");
+}
+
+static void test_time_ends_the_rendering(void **state)
+{
+    (void)state;
+    int samples;
+    double error, took;
+    expect(0, "100 x 80, samples, 0.3 s at most, 5 bounces",
+           "demo07 100 80 --time 0.3 --no-window --out t.png");
+    read_result(&samples, &error);
+    assert_in_range(samples, 1, 100000);
+    took = strtod(strrchr(said, ':') + 1, NULL);
+    assert_true(took >= 0.29 && took < 2.0);
+    expect(0, "", "demo07 100 80 --time 0.000001 --no-window --out t.png");
+    read_result(&samples, &error);
+    assert_int_equal(samples, 1); /* one at least: a whole picture */
+    expect(0, "at most 2 samples, 600 s at most",
+           "demo07 40 30 --time 600 --samples 2 --no-window --out t.png");
+    read_result(&samples, &error);
+    assert_int_equal(samples, 2);
+}
+
+static void test_samplers(void **state)
+{
+    (void)state;
+    expect(0, "", "demo07 40 30 --samples 4 --quiet --out 1.png");
+    expect(0, "", "demo07 40 30 --samples 4 --quiet --out 2.png --sampler random");
+    expect(0, "", "demo07 40 30 --samples 4 --quiet --out 3.png --sampler sobol");
+    expect(0, "", "demo08 40 30 --samples 4 --quiet --out 4.png");
+    expect(0, "", "demo08 40 30 --samples 4 --quiet --out 5.png --sampler random");
+    assert_int_equal(run("cmp 1.png 2.png"), 0);
+    assert_int_equal(run("cmp 1.png 3.png"), 1);
+    assert_int_equal(run("cmp 3.png 4.png"), 0); /* by chapter 7's code or rt_render */
+    assert_int_equal(run("cmp 1.png 5.png"), 0);
+}
+
+static void test_lanes(void **state)
+{
+    (void)state;
+    expect(0, "", "demo09 60 40 --samples 4 --quiet --out 1.png --lanes 1");
+    for (int lanes = 4; lanes <= 8; lanes += 4) {
+        char arguments[100];
+        snprintf(arguments, sizeof arguments,
+                 "demo09 60 40 --samples 4 --quiet --out 2.png --lanes %d", lanes);
+        if (rt_lane_count(lanes) != lanes) {
+            expect(2, "--lanes: ", arguments);
+            continue;
+        }
+        expect(0, "", arguments);
+        assert_int_equal(run("cmp 1.png 2.png"), 0);
+    }
+    expect(0, "--lanes changes nothing",
+           "demo05 20 20 --samples 1 --lanes 1 --no-window --out n.png");
+    expect(0, "", "demo05 20 20 --samples 1 --no-window --out n.png");
+    assert_null(strstr(said, "--lanes"));
+}
+
+static void test_chapter_8_times_its_loops(void **state)
+{
+    (void)state;
+    expect(0,
+           "without -fopenmp|inner loop|one generator|one variable|right |1 at a "
+           "time|packets: "
+           "rt_render",
+           "demo08 9 9 --samples 1 --no-window --threads 2 --lanes 1 --out m.png");
+    int yes = 0, no = 0; /* the loops that are right, and those that are not */
+    for (const char *at = said; (at = strstr(at, "   yes\n")) != NULL; at++)
+        yes++;
+    for (const char *at = said; (at = strstr(at, "   no\n")) != NULL; at++)
+        no++;
+    assert_int_equal(yes + no, 6);
+    assert_in_range(yes, 4, 5); /* a race may go well */
+}
+
+static void test_chapter_9_counts_its_points(void **state)
+{
+    (void)state;
+    int samples;
+    double random, sobol, error;
+    expect(0, "    1 1 1 1 1 1 1 1\n|4 samples|16 samples|64 samples|256 samples",
+           "demo09 40 30 --samples 4 --no-window --out m.png");
+    assert_int_equal(
+        sscanf(strstr(said, "256 samples"), "256 samples %lf %% %lf %%", &random, &sobol),
+        2);
+    assert_true(random > 5.0 && random < 8.0);
+    assert_true(sobol > 2.5 && sobol < random / 1.3);
+    read_result(&samples, &error);
+    assert_int_equal(samples, 4);
+    assert_true(error > 20.0 && error < 80.0);
 }
 
 static void test_without_a_display_it_says_so_and_goes_on(void **state)
@@ -159,8 +309,40 @@ static void test_wrong_use(void **state)
         {"--samples 99999999999", "--samples: '99999999999'"},
         {"--samples 99999999999999999999999", "--samples: '99999999999999999999999'"},
         {"--bounces -1", "--bounces: '-1'"},
-        {"--threads 0", "--threads: '0'"},
-        {"--threads 1025", "--threads: '1025' is not a whole number from 1 to 1024"},
+        {"--threads -1", "--threads: '-1'"},
+        {"--threads 1025", "--threads: '1025' is not a whole number from 0 to 1024"},
+        {"--error", "--error: a number is missing"},
+        {"--error 0", "--error: '0': the wanted error must be a decimal number above 0"},
+        {"--error 0.0", "--error: '0.0'"},
+        {"--error -0.1", "--error: '-0.1'"},
+        {"--error nan", "--error: 'nan'"},
+        {"--error inf", "--error: 'inf'"},
+        {"--error abc", "--error: 'abc'"},
+        {"--error ''", "--error: ''"},
+        {"--error .", "--error: '.'"},
+        {"--error 0.1.", "--error: '0.1.'"},
+        {"--error 0,1", "--error: '0,1'"},
+        {"--error 1e-2", "--error: '1e-2'"},
+        {"--error 0x1", "--error: '0x1'"},
+        {"--error +1", "--error: '+1'"},
+        {"--error ' 1'", "--error: ' 1'"},
+        {"--error 1%", "--error: '1%'"},
+        {"--error 0.0000000000000000000000000000000000000000000000001", "above 0"},
+        {"--error 1000000000000000000000000000000000000000", "--error: '1000000"},
+        {"--time", "--time: a number is missing"},
+        {"--time 0", "--time: '0': the time in seconds must be a decimal number above 0"},
+        {"--time -1", "--time: '-1'"},
+        {"--time NaN", "--time: 'NaN'"},
+        {"--time infinity", "--time: 'infinity'"},
+        {"--time 5s", "--time: '5s'"},
+        {"--sampler", "--sampler: a name is missing"},
+        {"--sampler halton", "--sampler: 'halton' is not random or sobol"},
+        {"--sampler ''", "--sampler: ''"},
+        {"--sampler Sobol", "--sampler: 'Sobol'"},
+        {"--lanes", "--lanes: a number is missing"},
+        {"--lanes 0", "--lanes: '0'"},
+        {"--lanes 2", "--lanes: '2' is not 1, 4 or 8"},
+        {"--lanes 16", "--lanes: '16'"},
         {"--seed 4294967296", "--seed: '4294967296'"},
         {"--seed", "--seed: a number is missing"},
         {"--out", "--out: a file name is missing"},
@@ -303,10 +485,17 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_help),
-        cmocka_unit_test(test_all_seven_write_a_png_to_build),
+        cmocka_unit_test(test_all_nine_write_a_png_to_build),
         cmocka_unit_test(test_pfm),
         cmocka_unit_test(test_one_thread_or_two_the_same_file),
         cmocka_unit_test(test_quiet_is_quiet),
+        cmocka_unit_test(test_error_ends_the_rendering),
+        cmocka_unit_test(test_the_error_is_said_where_it_is_known),
+        cmocka_unit_test(test_time_ends_the_rendering),
+        cmocka_unit_test(test_samplers),
+        cmocka_unit_test(test_lanes),
+        cmocka_unit_test(test_chapter_8_times_its_loops),
+        cmocka_unit_test(test_chapter_9_counts_its_points),
         cmocka_unit_test(test_without_a_display_it_says_so_and_goes_on),
         cmocka_unit_test(test_plain_lines_when_piped),
         cmocka_unit_test(test_bounces_where_there_are_none),

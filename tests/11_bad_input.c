@@ -65,7 +65,7 @@ static rt_vec3 picture[12];
 static rt_status render(const rt_scene *scene, const rt_camera *camera,
                         rt_options options)
 {
-    rt_image image = {4, 3, picture, 0, 0, 0};
+    rt_image image = {.width = 4, .height = 3, .pixels = picture};
     if (options.samples == 0)
         options.samples = 2;
     return rt_render(scene, camera, &options, &image);
@@ -73,7 +73,7 @@ static rt_status render(const rt_scene *scene, const rt_camera *camera,
 
 static rt_status render_scene(const rt_scene *scene)
 {
-    rt_options options = {0, 3, 0, 0, NULL, NULL};
+    rt_options options = {.bounces = 3};
     const rt_status status = render(scene, &room_camera, options);
     for (size_t i = 0; i < COUNT(picture) && status == RT_OK; i++)
         assert_true(picture[i].x >= 0 && picture[i].x <= FLT_MAX && picture[i].y >= 0 &&
@@ -101,20 +101,20 @@ static rt_status render_light(float x, float y, float z, float intensity)
 static rt_status render_camera(rt_vec3 position, rt_vec3 direction, float fov_y)
 {
     const rt_camera camera = {position, direction, {0, 1, 0}, fov_y};
-    rt_options options = {0, 0, 0, 0, NULL, NULL};
+    rt_options options = {0};
     return render(&scene_indirect, &camera, options);
 }
 
 static rt_status render_options(int samples, int bounces, int threads)
 {
-    rt_options options = {samples, bounces, threads, 0, NULL, NULL};
+    rt_options options = {.samples = samples, .bounces = bounces, .threads = threads};
     return render(&scene_indirect, &room_camera, options);
 }
 
 static rt_status render_size(int width, int height)
 {
-    rt_image image = {width, height, picture, 0, 0, 0};
-    rt_options options = {1, 0, 0, 0, NULL, NULL};
+    rt_image image = {.width = width, .height = height, .pixels = picture};
+    rt_options options = {.samples = 1};
     return rt_render(&scene_indirect, &room_camera, &options, &image);
 }
 
@@ -364,7 +364,7 @@ static void camera_inside_a_shape(void)
         scene_indirect; /* black inside: the lamp is outside, and no infinity */
     const rt_camera in_ball = {{-20, -4, 8}, {0, 0, -1}, {0, 1, 0}, 60};
     const rt_camera in_cube = {{30, -10, -10}, {0, 0, -1}, {0, 1, 0}, 60};
-    rt_options options = {4, 3, 0, 0, NULL, NULL};
+    rt_options options = {.samples = 4, .bounces = 3};
     assert_int_equal(render(&scene, &in_ball, options), RT_OK);
     assert_vec(picture[0], 0, 0, 0, 0);
     assert_int_equal(render(&scene, &in_cube, options), RT_OK);
@@ -478,7 +478,7 @@ static void bounces_a_million(void)
 
 static void samples_zero_or_negative(void)
 {
-    rt_image image = {4, 3, picture, 0, 0, 0};
+    rt_image image = {.width = 4, .height = 3, .pixels = picture};
     assert_int_equal(rt_render(&scene_sphere, &room_camera, NULL, &image), RT_OK);
     assert_int_equal(image.samples, 16); /* 0 is the default */
     assert_int_equal(render_options(-1, 0, 0), RT_BAD_SAMPLES);
@@ -550,7 +550,7 @@ static void ten_thousand_objects(void)
 
 static void null_pointers(void)
 {
-    rt_image image = {4, 3, NULL, 0, 0, 0};
+    rt_image image = {.width = 4, .height = 3};
     assert_int_equal(rt_render(NULL, &room_camera, NULL, &image), RT_BAD_POINTER);
     assert_int_equal(rt_render(&scene_sphere, NULL, NULL, &image), RT_BAD_POINTER);
     assert_int_equal(rt_render(&scene_sphere, &room_camera, NULL, NULL), RT_BAD_POINTER);
@@ -559,21 +559,26 @@ static void null_pointers(void)
     assert_int_equal(rt_check_scene(NULL, NULL), RT_BAD_POINTER);
 }
 
-static void nothing_to_free(void)
+static void free_twice(void)
 {
-    shell(1, "", "grep -nE 'malloc *\\(|calloc *\\(|free *\\(' \"$TOP\"/rt.h");
+    rt_bvh bvh;
+    rt_free_bvh(NULL);
+    assert_int_equal(rt_build_bvh(&scene_indirect, &bvh), RT_OK);
+    rt_free_bvh(&bvh);
+    assert_null(bvh.nodes);
+    rt_free_bvh(&bvh);
 }
 
 static void two_renders_at_once(void)
 {
     static rt_vec3 pixels[3][40 * 30];
     rt_status status[3];
-    rt_options options = {3, 3, 2, 0, NULL, NULL};
+    rt_options options = {.samples = 3, .bounces = 3, .threads = 2};
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(3)
 #endif
     for (int i = 0; i < 3; i++) {
-        rt_image image = {40, 30, pixels[i], 0, 0, 0};
+        rt_image image = {.width = 40, .height = 30, .pixels = pixels[i]};
         status[i] = rt_render(&scene_indirect, &room_camera, &options, &image);
     }
     for (int i = 0; i < 3; i++) {
@@ -585,8 +590,10 @@ static void two_renders_at_once(void)
 static void french_locale(void)
 {
     shell(1, "",
-          "LC_ALL=fr_FR.UTF-8 \"$DEMOS\"/demo01 20 20 --no-window --out l.png | "
+          "LC_ALL=fr_FR.UTF-8 \"$DEMOS\"/demo01 20 20 --error 0.5 --no-window --out "
+          "l.png | "
           "grep '[0-9],[0-9]'");
+    assert_true(exists("l.png"));
 }
 
 static void bad_pixels(void)
@@ -690,11 +697,21 @@ static void bad_numbers(void)
         snprintf(arguments, sizeof arguments, "demo01 --samples %s", bad[i]);
         expect(2, "is not a whole number", arguments);
     }
+    const char *const not_above_zero[] = {"0", "-1", "nan", "inf", "1e99", "''", "x"};
+    for (size_t i = 0; i < COUNT(not_above_zero); i++) {
+        char arguments[100];
+        snprintf(arguments, sizeof arguments, "demo01 --error %s", not_above_zero[i]);
+        expect(2, "the wanted error must be a decimal number above 0", arguments);
+        snprintf(arguments, sizeof arguments, "demo01 --time %s", not_above_zero[i]);
+        expect(2, "the time in seconds must be a decimal number above 0", arguments);
+    }
 }
 
 static void option_without_value(void)
 {
     expect(2, "--seed: a number is missing", "demo01 --seed");
+    expect(2, "--error: a number is missing", "demo01 --error");
+    expect(2, "--sampler: a name is missing", "demo01 --sampler");
 }
 
 static void odd_omp_num_threads(void)
@@ -851,7 +868,7 @@ static const struct row {
     {"51 1 x 1, 1 x N: a picture", one_pixel},
     {"52 10000 objects: a picture", ten_thousand_objects},
     {"53 NULL: refused", null_pointers},
-    {"54 nothing to free: rt.h allocates nothing", nothing_to_free},
+    {"54 rt_free_bvh of NULL, and twice: fine", free_twice},
     {"55 renders at the same time: same bytes", two_renders_at_once},
     {"56 French locale: decimal points", french_locale},
     {"57 pixel NaN, infinite, negative: 0, 255, 0", bad_pixels},

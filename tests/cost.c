@@ -14,8 +14,8 @@ int main(void)
     static rt_vec3 pixels[160 * 120];
     double best = 1e9;
     for (int run = 0; run < 15; run++) {
-        rt_image image = {160, 120, pixels, 0, 0, 0};
-        rt_options options = {4, 5, 1, 0, NULL, NULL};
+        rt_image image = {.width = 160, .height = 120, .pixels = pixels};
+        rt_options options = {.samples = 4, .bounces = 5, .threads = 1};
         const double start = rt__seconds();
         if (rt_render(&scene_indirect, &room_camera, &options, &image) != RT_OK)
             return 1;

@@ -1,6 +1,7 @@
 /* Prints "demoNN hash" for the demo that DEMO names: 64 x 48 pixels, 4 samples, the FNV-1a hash
  * of the bits of every float and of every byte. It must be the same for every compiler, level
- * of optimisation, C library, processor and number of threads: tests/references/hashes.txt.
+ * of optimisation, C library, processor, number of threads and number of rays at a time:
+ * tests/references/hashes.txt.
  * Needs nothing but rt.h, so that it runs where there is no cmocka. */
 #include <stdio.h>
 #include <string.h>
@@ -27,6 +28,11 @@ unsigned char demo_gamma(float value)
     return rt_encode(value, 2.2);
 }
 
+double demo_seconds(void)
+{
+    return 0.0;
+}
+
 static uint64_t hash_float(uint64_t hash, float value)
 {
     uint32_t bits;
@@ -39,17 +45,24 @@ static uint64_t hash_float(uint64_t hash, float value)
 /* The demo's main calls this. */
 int demo_main(int argc, char **argv, const demo *d)
 {
-    static rt_vec3 pixels[W * H];
+    static rt_vec3 pixels[W * H], half[W * H];
     const demo_view view = {W, H, d->bounces};
     uint64_t first = 0;
     (void)argc;
     (void)argv;
     the_demo = d;
     for (int threads = 1; threads <= 8; threads++) {
-        rt_image image = {W, H, pixels, 0, 0, 0};
-        rt_options options = {4, 0, 0, 0, NULL, NULL};
-        options.threads = threads;
-        if (rt_render_pixels(pixel_of_the_demo, &view, &options, &image) != RT_OK)
+        rt_image image = {.width = W, .height = H, .pixels = pixels};
+        const rt_options options = {.samples = 4,
+                                    .bounces = d->bounces,
+                                    .threads = threads,
+                                    .sampler = d->sobol ? RT_SOBOL : RT_RANDOM,
+                                    .lanes = rt_lane_count(threads)}; /* 1, 4 and 8 */
+        image.half = d->estimate ? half : NULL;
+        const rt_status status =
+            d->render ? d->render(&options, &image)
+                      : rt_render_pixels(pixel_of_the_demo, &view, &options, &image);
+        if (status != RT_OK)
             return 1;
         uint64_t hash = 14695981039346656037u;
         for (int i = 0; i < W * H; i++) {
@@ -58,7 +71,9 @@ int demo_main(int argc, char **argv, const demo *d)
             hash = hash_float(hash, pixels[i].z);
         }
         if (threads > 1 && hash != first)
-            return fprintf(stderr, "%s: %d threads, another hash\n", d->name, threads), 1;
+            return fprintf(stderr, "%s: %d threads, %d lanes: another hash\n", d->name,
+                           threads, options.lanes),
+                   1;
         first = hash;
     }
     printf("%s %08lx%08lx\n", d->name, (unsigned long)(first >> 32),

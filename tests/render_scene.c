@@ -42,7 +42,7 @@ int main(int argc, char **argv)
     if (!read_scene(path, &file)) {
         fprintf(stderr, "render_scene: '%s': %s\n", path, file.error);
     } else {
-        rt_image image = {file.width, file.height, NULL, 0, 0, 0};
+        rt_image image = {.width = file.width, .height = file.height};
         image.pixels =
             calloc((size_t)file.width * (size_t)file.height, sizeof *image.pixels);
         const rt_status status =

@@ -205,7 +205,7 @@ static inline rt_vec3 scene_mirror_direct(const void *context, float x, float y,
 static inline rt_status render_scene(const scene_file *file, int samples, uint32_t seed,
                                      rt_image *image)
 {
-    rt_options options = {0, 0, 0, 0, NULL, NULL};
+    rt_options options = {0};
     options.samples = samples;
     options.bounces = file->bounces;
     options.seed = seed;

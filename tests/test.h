@@ -136,7 +136,7 @@ static inline rt_ray random_ray(rt_rng *rng)
 
 static inline rt_image new_image(int width, int height)
 {
-    rt_image image = {width, height, NULL, 0, 0, 0};
+    rt_image image = {.width = width, .height = height};
     image.pixels = calloc((size_t)width * (size_t)height, sizeof *image.pixels);
     assert_non_null(image.pixels);
     return image;
@@ -174,6 +174,11 @@ unsigned char demo_gamma(float value)
     return rt_encode(value, 2.2);
 }
 
+double demo_seconds(void)
+{
+    return 0.0;
+}
+
 #define main main_of_the_demo
 #include DEMO
 #undef main
@@ -183,16 +188,24 @@ static rt_vec3 call_the_demo(const void *view, float x, float y, rt_rng *rng)
     return the_demo.pixel(view, x, y, rng);
 }
 
-/* The demo's picture with as many bounces as it has by default; free the pixels. */
+/* The demo's picture with the bounces and the sampler that it has by default; free the pixels
+ * and, which may be NULL, half. */
 static inline rt_image render_the_demo(int width, int height, int samples, uint32_t seed)
 {
     rt_image image = new_image(width, height);
-    rt_options options = {0, 0, 0, 0, NULL, NULL};
     main_of_the_demo(0, NULL);
     const demo_view view = {width, height, the_demo.bounces};
-    options.samples = samples;
-    options.seed = seed;
-    assert_int_equal(rt_render_pixels(call_the_demo, &view, &options, &image), RT_OK);
+    const rt_options options = {.samples = samples,
+                                .bounces = the_demo.bounces,
+                                .seed = seed,
+                                .sampler = the_demo.sobol ? RT_SOBOL : RT_RANDOM};
+    if (the_demo.estimate)
+        image.half = calloc((size_t)width * (size_t)height, sizeof *image.half);
+    assert_true(image.half || !the_demo.estimate);
+    assert_int_equal(the_demo.render
+                         ? the_demo.render(&options, &image)
+                         : rt_render_pixels(call_the_demo, &view, &options, &image),
+                     RT_OK);
     return image;
 }
 
@@ -209,6 +222,7 @@ static inline void check_golden(void)
         bytes[3 * i + 2] = the_demo.encode(image.pixels[i].z);
     }
     free(image.pixels);
+    free(image.half);
 
     char path[100];
     const char *mode = getenv("GOLDEN");
