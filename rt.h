@@ -2013,6 +2013,17 @@ static inline bool rt__moderate(const rt_scene *scene, const rt_camera *camera)
 #undef RT__LANES
 #ifdef __clang__
 #pragma clang attribute pop
+#pragma clang attribute push(                                                            \
+    __attribute__((target("avx2,fma,avx512f,avx512vl,avx512bw,avx512dq"))),              \
+    apply_to = function)
+#else
+#pragma GCC target("avx512f,avx512vl,avx512bw,avx512dq")
+#endif
+#define RT__LANES 16
+#include "rt.h"
+#undef RT__LANES
+#ifdef __clang__
+#pragma clang attribute pop
 #else
 #pragma GCC pop_options
 #endif
@@ -2027,9 +2038,15 @@ RTDEF int rt_lane_count(int wanted)
 #ifdef RT__X86
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
         most = 8;
+    if (most == 8 && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
+        most = 16;
 #endif
 #endif
-    return wanted <= 0 || wanted > most ? most : wanted < 4 ? 1 : wanted < 8 ? 4 : 8;
+    int lanes = 1;
+    for (int more = 4; more <= most && (wanted <= 0 || more <= wanted); more *= 2)
+        lanes = more;
+    return lanes;
 }
 
 RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
@@ -2080,6 +2097,8 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #ifdef RT__X86
         if (lanes == 8)
             job.step = rt__step_packets8;
+        if (lanes == 16)
+            job.step = rt__step_packets16;
 #endif
     }
 #endif
@@ -2110,9 +2129,9 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
  * double, which it needs, only half as many fit, and most spheres are not hit. So all
  * shapes are asked in float first, with a bound for the error, which gives each a t that
  * is surely not too large. If the shape with the smallest, computed as chapter 1 does, in
- * double, is nearer than that of any other, it is the nearest. If not, or if it is a box,
- * the lane asks chapters 1 to 3. Shadows likewise: yes, no, or in doubt ask. In the room,
- * one lane in sixty asks, most of them because of the cube.
+ * double, is nearer than that of any other, it is the nearest. If not, the lane asks
+ * chapters 1 to 3. Shadows likewise: yes, no, or in doubt ask. In the room, one lane in
+ * some thousands asks.
  *
  * That is how the scene is asked if the shapes are few. If they are many, each ray goes
  * through the tree of chapter 8 by itself, and the lanes are the eight boxes of a node.
@@ -2121,6 +2140,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 
 #define RT__PASTE(name, lanes) name##lanes
 #define RT__NAME(name, lanes) RT__PASTE(name, lanes)
+#define rt__cuts RT__NAME(rt__cuts, RT__LANES)
 #define rt__d RT__NAME(rt__d, RT__LANES)
 #define rt__d3 RT__NAME(rt__d3, RT__LANES)
 #define rt__f RT__NAME(rt__f, RT__LANES)
@@ -2145,6 +2165,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define rt__blocks_box RT__NAME(rt__blocks_box, RT__LANES)
 #define rt__blocks_sphere RT__NAME(rt__blocks_sphere, RT__LANES)
 #define rt__cosine RT__NAME(rt__cosine, RT__LANES)
+#define rt__cut_axis RT__NAME(rt__cut_axis, RT__LANES)
 #define rt__ddot RT__NAME(rt__ddot, RT__LANES)
 #define rt__dmad RT__NAME(rt__dmad, RT__LANES)
 #define rt__dot RT__NAME(rt__dot, RT__LANES)
@@ -2155,9 +2176,11 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define rt__dsub RT__NAME(rt__dsub, RT__LANES)
 #define rt__enter_lanes RT__NAME(rt__enter_lanes, RT__LANES)
 #define rt__fabs RT__NAME(rt__fabs, RT__LANES)
+#define rt__face RT__NAME(rt__face, RT__LANES)
 #define rt__find RT__NAME(rt__find, RT__LANES)
 #define rt__find_in_tree RT__NAME(rt__find_in_tree, RT__LANES)
 #define rt__finish RT__NAME(rt__finish, RT__LANES)
+#define rt__finish_box RT__NAME(rt__finish_box, RT__LANES)
 #define rt__fma RT__NAME(rt__fma, RT__LANES)
 #define rt__fmax RT__NAME(rt__fmax, RT__LANES)
 #define rt__fmin RT__NAME(rt__fmin, RT__LANES)
@@ -2169,6 +2192,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define rt__join RT__NAME(rt__join, RT__LANES)
 #define rt__leave RT__NAME(rt__leave, RT__LANES)
 #define rt__light RT__NAME(rt__light, RT__LANES)
+#define rt__look_up RT__NAME(rt__look_up, RT__LANES)
 #define rt__mix RT__NAME(rt__mix, RT__LANES)
 #define rt__mul RT__NAME(rt__mul, RT__LANES)
 #define rt__near_box RT__NAME(rt__near_box, RT__LANES)
@@ -2208,7 +2232,76 @@ typedef struct rt__d3 {
 
 /* ---- what is the machine's own ------------------------------------------------------ */
 
-#if RT__LANES == 8 /* AVX2 */
+#if RT__LANES == 16 /* AVX-512 */
+RT__INLINE rt__f rt__fsqrt(rt__f v)
+{
+    return (rt__f)_mm512_maskz_sqrt_ps(0xffff, (__m512)v);
+}
+RT__INLINE rt__d rt__dsqrt(rt__d v)
+{
+    return (rt__d)_mm512_maskz_sqrt_pd(0xff, (__m512d)v);
+}
+RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
+{
+    return (rt__f)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);
+}
+RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
+{
+    return (rt__f)_mm512_maskz_max_ps(0xffff, (__m512)a, (__m512)b);
+}
+RT__INLINE rt__f rt__select(rt__m mask, rt__f yes, rt__f no)
+{
+    return (rt__f)_mm512_mask_blend_ps(_mm512_movepi32_mask((__m512i)mask), (__m512)no,
+                                       (__m512)yes);
+}
+RT__INLINE int rt__bits(rt__m mask)
+{
+    return _mm512_movepi32_mask((__m512i)mask);
+}
+RT__INLINE void rt__halves(rt__f v, rt__d *two)
+{
+    two[0] = (rt__d)_mm512_maskz_cvtps_pd(
+        0xff, _mm512_maskz_extractf32x8_ps(0xff, (__m512)v, 0));
+    two[1] = (rt__d)_mm512_maskz_cvtps_pd(
+        0xff, _mm512_maskz_extractf32x8_ps(0xff, (__m512)v, 1));
+}
+RT__INLINE rt__f rt__join(const rt__d *two)
+{
+    return (rt__f)_mm512_maskz_insertf32x8(
+        0xffff, _mm512_castps256_ps512(_mm512_maskz_cvtpd_ps(0xff, (__m512d)two[0])),
+        _mm512_maskz_cvtpd_ps(0xff, (__m512d)two[1]), 1);
+}
+RT__INLINE rt__f rt__fma(rt__f a, rt__f b, rt__f c)
+{
+    return (rt__f)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
+}
+RT__INLINE rt__f rt__fnma(rt__f a, rt__f b, rt__f c)
+{
+    return (rt__f)_mm512_fnmadd_ps((__m512)a, (__m512)b, (__m512)c);
+}
+RT__INLINE void rt__gather(const rt__shape *shapes, const int32_t *places, rt__f *field)
+{
+    rt__f8 low[8], high[8];
+    rt__gather8(shapes, places, low);
+    rt__gather8(shapes, places + 8, high);
+    for (int k = 0; k < 8; k++)
+        field[k] = (rt__f)_mm512_maskz_insertf32x8(
+            0xffff, _mm512_castps256_ps512((__m256)low[k]), (__m256)high[k], 1);
+}
+/* In each 16 bytes: bytes of the table by indices, or of the indices by the table. */
+RT__INLINE rt__u rt__look_up(__m128i table, rt__u v, bool swap)
+{
+    const __m512i t = _mm512_maskz_broadcast_i32x4(0xffff, table), w = (__m512i)v;
+    return (rt__u)(swap ? _mm512_maskz_shuffle_epi8(~(__mmask64)0, w, t)
+                        : _mm512_maskz_shuffle_epi8(~(__mmask64)0, t, w));
+}
+#elif RT__LANES == 8   /* AVX2 */
+/* In each 16 bytes: bytes of the table by indices, or of the indices by the table. */
+RT__INLINE rt__u rt__look_up(__m128i table, rt__u v, bool swap)
+{
+    const __m256i t = _mm256_broadcastsi128_si256(table), w = (__m256i)v;
+    return (rt__u)(swap ? _mm256_shuffle_epi8(w, t) : _mm256_shuffle_epi8(t, w));
+}
 RT__INLINE rt__f rt__fsqrt(rt__f v)
 {
     return (rt__f)_mm256_sqrt_ps((__m256)v);
@@ -2253,7 +2346,7 @@ RT__INLINE rt__f rt__fnma(rt__f a, rt__f b, rt__f c) /* c - a b */
     return (rt__f)_mm256_fnmadd_ps((__m256)a, (__m256)b, (__m256)c);
 }
 /* The first 8 floats of the shapes at the 8 places: 8 rows, read as columns. */
-RT__INLINE void rt__gather(const rt__shape *shapes, rt__m places, rt__f *field)
+RT__INLINE void rt__gather(const rt__shape *shapes, const int32_t *places, rt__f *field)
 {
     __m256 r[8], t[8];
     for (int i = 0; i < 8; i++)
@@ -2366,7 +2459,7 @@ RT__INLINE rt__f rt__fnma(rt__f a, rt__f b, rt__f c)
 {
     return c - a * b;
 }
-RT__INLINE void rt__gather(const rt__shape *shapes, rt__m places, rt__f *field)
+RT__INLINE void rt__gather(const rt__shape *shapes, const int32_t *places, rt__f *field)
 {
     for (int k = 0; k < 8; k++) {
         const char *row = (const char *)(&shapes->center.x + k);
@@ -2654,15 +2747,84 @@ static __attribute__((noinline)) void rt__ask(const rt_scene *scene, const rt__r
     }
 }
 
+/* rt__slabs and rt__cut. */
+typedef struct rt__cuts {
+    rt__f t_in, t_out;
+    rt__m axis_in, axis_out, miss;
+} rt__cuts;
+
+RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, float low, float high, rt__f o,
+                             rt__f u)
+{
+    const rt__m none = {0}, here = none + axis;
+    const rt__m parallel = u == 0.0f, up = u > 0.0f;
+    const rt__f t_low = (low - o) / u, t_high = (high - o) / u;
+    const rt__f all = rt__splat(FLT_MAX);
+    const rt__f t_in = rt__select(parallel, -all, rt__select(up, t_low, t_high));
+    const rt__f t_out = rt__select(parallel, all, rt__select(up, t_high, t_low));
+    const rt__m later = t_in > cuts->t_in, sooner = t_out < cuts->t_out;
+    cuts->t_in = rt__select(later, t_in, cuts->t_in);
+    cuts->t_out = rt__select(sooner, t_out, cuts->t_out);
+    cuts->axis_in = (here & later) | (cuts->axis_in & ~later);
+    cuts->axis_out = (here & sooner) | (cuts->axis_out & ~sooner);
+    cuts->miss |= (parallel & ~((o >= low) & (o <= high))) | ~(t_in <= t_out) |
+                  ~(cuts->t_in <= cuts->t_out);
+}
+
+/* One coordinate of normal and point, if the ray comes or goes through a plane of this axis. */
+RT__INLINE void rt__face(rt__m here, rt__m inside, rt__f u, float low, float high,
+                         rt__f *normal, rt__f *point)
+{
+    const rt__m up = u > 0.0f;
+    const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
+    *normal = rt__select(here, rt__select(up, -one, one), zero);
+    *point = rt__select(here, rt__select(up ^ inside, rt__splat(low), rt__splat(high)),
+                        *point);
+}
+
+/* rt_hit_box, for lanes whose nearest shape is this box, unless another one is as near;
+ * returns those for which that is settled. */
+RT__INLINE rt__m rt__finish_box(const rt__rays *r, rt__m lanes, const rt__shape *box,
+                                rt__f others, rt__hits *hits)
+{
+    const rt_vec3 min = box->center, max = box->max;
+    const rt__f3 o = r->origin, u = r->direction;
+    const rt__m none = {0};
+    rt__cuts cuts;
+    cuts.t_out = rt__splat(FLT_MAX);
+    cuts.t_in = -cuts.t_out;
+    cuts.axis_in = cuts.axis_out = cuts.miss = none;
+    rt__cut_axis(&cuts, 0, min.x, max.x, o.x, u.x);
+    rt__cut_axis(&cuts, 1, min.y, max.y, o.y, u.y);
+    rt__cut_axis(&cuts, 2, min.z, max.z, o.z, u.z);
+    const rt__m inside = ~(cuts.t_in > 0.0f);
+    const rt__f t = rt__select(inside, cuts.t_out, cuts.t_in);
+    const rt__m axis = (cuts.axis_out & inside) | (cuts.axis_in & ~inside);
+    const rt__m good = lanes & ~cuts.miss & (t > 0.0f) & (t < others);
+    rt__f3 normal, point = rt__add(o, rt__scale(u, t));
+    rt__face(axis == 0, inside, u.x, min.x, max.x, &normal.x, &point.x);
+    rt__face(axis == 1, inside, u.y, min.y, max.y, &normal.y, &point.y);
+    rt__face(axis == 2, inside, u.z, min.z, max.z, &normal.z, &point.z);
+    hits->normal = rt__vselect(good, normal, hits->normal);
+    hits->point = rt__vselect(good, point, hits->point);
+    hits->albedo = rt__vselect(good, rt__all(box->albedo), hits->albedo);
+    hits->mirror = (hits->mirror & ~good) | (good & -(int32_t)(box->kind - 2.0f));
+    hits->outside |= good;
+    hits->inside |= good;
+    return good;
+}
+
 /* rt_hit_sphere once more, to the end and in double, each lane with the sphere that is
- * nearest to it. */
+ * nearest to it; and the boxes. */
 RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes,
                            const rt__nearest *n, rt__hits *hits)
 {
     const rt__m none = n->low == FLT_MAX;
     const rt__d nought = {0.0};
     rt__f field[8]; /* center, radius, albedo, kind */
-    rt__gather(scene->bvh->shapes, n->at, field);
+    int32_t places[RT__LANES];
+    memcpy(places, &n->at, sizeof places);
+    rt__gather(scene->bvh->shapes, places, field);
     rt__d3 o[2], u[2], center[2], points[2], normals[2];
     rt__d radius[2], ts[2], aways[2];
     rt__vhalves(r->origin, o);
@@ -2693,10 +2855,18 @@ RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes
     hits->point = rt__vjoin(points);
     hits->normal = rt__vjoin(normals);
     hits->albedo = rt__vec(field[4], field[5], field[6]);
-    /* surely a sphere, the nearest, and by the root that chapter 1 would have taken */
-    const rt__m good = none | ((kind < 2.0f) & (t > 1e-30f) & (t < n->others) &
-                               (hits->normal.x == hits->normal.x));
-    const rt__m ask = lanes & ~good;
+    /* a sphere, surely the nearest, by the root that chapter 1 takes, and not too small */
+    rt__m ask = lanes & ~(none | ((kind < 2.0f) & (t > 1e-30f) & (t < n->others) &
+                                  (hits->normal.x == hits->normal.x)));
+    if (rt__bits(ask) == 0)
+        return;
+    const rt__shape *box = scene->bvh->shapes + scene->sphere_count;
+    int at = scene->sphere_count * (int)sizeof *box;
+    for (int i = 0; i < scene->box_count; i++, box++, at += (int)sizeof *box) {
+        const rt__m those = ask & (n->at == at);
+        if (rt__bits(those) != 0)
+            ask &= ~rt__finish_box(r, those, box, n->others, hits);
+    }
     if (rt__bits(ask) != 0)
         rt__ask(scene, r, ask, n, hits);
 }
@@ -2721,6 +2891,7 @@ RT__INLINE void rt__find(const rt_scene *scene, const rt__rays *r, rt__m lanes,
     rt__finish(scene, r, lanes, &n, hits);
 }
 
+#if RT__LANES <= 8
 /* rt__enter: now the lanes are the boxes of the node. */
 RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
                                     rt_vec3 inverse, float t_max, float *t)
@@ -2748,6 +2919,10 @@ RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
     }
     return result & ((1u << node->count) - 1u);
 }
+#else
+#undef rt__enter_lanes
+#define rt__enter_lanes rt__enter_lanes8
+#endif
 
 /* rt_intersect and rt_occluded of a scene with a tree: rays that were scattered find their
  * way through it one by one, and look at eight boxes at a time. */
@@ -2917,15 +3092,13 @@ RT__INLINE rt__u rt__mix(rt__u v)
 
 RT__INLINE rt__u rt__backwards(rt__u v)
 {
-#if RT__LANES == 8 /* bytes in reverse order, and a table for each half of a byte */
-    const __m256i bytes = _mm256_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203,
-                                            0x0c0d0e0f08090a0b, 0x0405060700010203);
-    const __m256i table = _mm256_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800,
-                                            0x0f070b030d050901, 0x0e060a020c040800);
+#if RT__LANES >= 8 /* bytes in reverse order, and a table for each half of a byte */
+    const __m128i bytes = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
+    const __m128i table = _mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800);
     const rt__u zero = {0}, halves = zero + 0x0f0f0f0fu;
-    const rt__u w = (rt__u)_mm256_shuffle_epi8((__m256i)v, bytes);
-    return (rt__u)_mm256_shuffle_epi8(table, (__m256i)(w & halves)) << 4 |
-           (rt__u)_mm256_shuffle_epi8(table, (__m256i)(w >> 4 & halves));
+    const rt__u w = rt__look_up(bytes, v, true);
+    return rt__look_up(table, w & halves, false) << 4 |
+           rt__look_up(table, w >> 4 & halves, false);
 #else
     v = v << 16 | v >> 16;
     v = (v & 0x00ff00ffu) << 8 | (v >> 8 & 0x00ff00ffu);
@@ -2956,8 +3129,8 @@ RT__INLINE rt__f rt__to_unit(rt__u bits)
            (1.0f / 8388608.0f);
 }
 
-/* rt_random, twice: all numbers are drawn in pairs. */
-RT__INLINE void rt__draw(rt__numbers *n, rt__m lanes, rt__f *r1, rt__f *r2)
+/* rt_random, twice, for the next pair: all numbers are drawn in pairs. */
+RT__INLINE void rt__draw(const rt__numbers *n, rt__f *r1, rt__f *r2)
 {
     rt__u first, second;
     if (n->sobol) {
@@ -2974,7 +3147,6 @@ RT__INLINE void rt__draw(rt__numbers *n, rt__m lanes, rt__f *r1, rt__f *r2)
         first = rt__mix(n->key + n->dimension);
         second = rt__mix(n->key + n->dimension + 1u);
     }
-    n->dimension += (rt__u)lanes & 2u;
     *r1 = rt__to_unit(first);
     *r2 = rt__to_unit(second);
 }
@@ -3018,6 +3190,9 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
     rt__f3 sum = rt__vec(zero, zero, zero), throughput = rt__vec(one, one, one);
     for (int bounce = 0;; bounce++) {
         rt__hits hits;
+        rt__f r1, r2;
+        rt__draw(numbers, &r1,
+                 &r2); /* early: the core can do it while it waits for a root */
         *rays -= lanes;
         if (scene->bvh->shapes)
             rt__find(scene, r, lanes, &hits);
@@ -3035,8 +3210,7 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
         if (bounce >= job->bounces || rt__bits(lanes) == 0)
             return sum;
 
-        rt__f r1, r2;
-        rt__draw(numbers, diffuse, &r1, &r2);
+        numbers->dimension += (rt__u)diffuse & 2u;
         const rt__f3 u = r->direction, n = hits.normal;
         const rt__f3 reflected = rt__sub(u, rt__scale(n, 2.0f * rt__dot(u, n)));
         const rt__f3 direction =
@@ -3087,7 +3261,8 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
         numbers.dimension = none;
         numbers.sample = none + rt__reverse(sample);
         numbers.sobol = sobol;
-        rt__draw(&numbers, lanes, &dx, &dy);
+        rt__draw(&numbers, &dx, &dy);
+        numbers.dimension = none + 2u;
         x = x + dx;
         y = y + dy;
 
@@ -3115,6 +3290,7 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
     return sum;
 }
 
+#undef rt__cuts
 #undef rt__d
 #undef rt__d3
 #undef rt__f
@@ -3139,6 +3315,7 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
 #undef rt__blocks_box
 #undef rt__blocks_sphere
 #undef rt__cosine
+#undef rt__cut_axis
 #undef rt__ddot
 #undef rt__dmad
 #undef rt__dot
@@ -3149,9 +3326,11 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
 #undef rt__dsub
 #undef rt__enter_lanes
 #undef rt__fabs
+#undef rt__face
 #undef rt__find
 #undef rt__find_in_tree
 #undef rt__finish
+#undef rt__finish_box
 #undef rt__fma
 #undef rt__fmax
 #undef rt__fmin
@@ -3163,6 +3342,7 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
 #undef rt__join
 #undef rt__leave
 #undef rt__light
+#undef rt__look_up
 #undef rt__mix
 #undef rt__mul
 #undef rt__near_box
