@@ -55,17 +55,20 @@
  * WHAT IT IS      Spheres, axis-aligned boxes, point lights, mirrors, diffuse surfaces,
  *                 direct and indirect light, on all cores. C99 and C++17, libc and libm.
  * WHAT IT IS NOT  No meshes, no textures, no glass, no lights with a size; no files, no
- *                 windows. It does not print, exit, allocate, or keep global state.
+ *                 windows. It does not print, exit, or keep global state, and allocates
+ *                 only for rt_build_bvh and while rt_render runs.
  *
- * HOW TO READ IT  From top to bottom. Chapters 0 to 7 are plain C, each on top of the
+ * HOW TO READ IT  From top to bottom. Chapters 0 to 9 are plain C, each on top of the
  *                 ones before; demos/demoNN and docs/NN- have the same numbers. The
- *                 machinery that runs them on all cores stands last, under
- *                 RT_IMPLEMENTATION.
+ *                 machinery that runs them on all cores, several rays at a time, stands
+ *                 last, under RT_IMPLEMENTATION.
  *
  * OPTIONS         Define before the include:
  *                 RT_IMPLEMENTATION  also compile the functions marked RTDEF
  *                 RT_STATIC          make those private to this file
  *                 RTDEF              or say yourself how they are declared
+ *                 RT_NO_PACKETS      one ray at a time only: compiles sooner, runs slower
+ *                 RT_MALLOC, RT_FREE in place of malloc and free
  *
  * CONVENTIONS     Right-handed world, y up; any unit of length in which no detail is
  *                 smaller than 1e-4 (see rt_leave). Colours are linear RGB. Pixel (0,0)
@@ -84,7 +87,7 @@
  *                 OMP_WAIT_POLICY=passive in the environment, or its threads lose time by
  *                 waiting for each other.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
- *                 of threads, nor on how the samples are split over several calls. For
+ *                 of threads or lanes, nor on how samples are split over calls. For
  *                 the same bits on other machines and compilers pass -ffp-contract=off
  *                 (gcc contracts a*b+c by default); -ffast-math is refused.
  * ROBUSTNESS      Spheres are intersected in double precision, so that walls of radius
@@ -95,8 +98,8 @@
  *                 or a shape are a miss, never a crash. Sine and cosine are our own, so
  *                 that libm cannot change a path. How all this is tested:
  *                 docs/correctness.md.
- * ERRORS          Only rt_render, rt_render_pixels and rt_check_... can fail. They return
- *                 an rt_status, and rt_status_text says in English what was wrong.
+ * ERRORS          rt_render, rt_render_pixels, rt_build_bvh and rt_check_... can fail. They
+ *                 return an rt_status, and rt_status_text says in English what was wrong.
  *
  * CONTENTS        0 vectors            rt_vec3, rt_dot, rt_normalize, rt_basis, rt_sincos
  *                 1 rays and spheres   rt_ray, rt_camera_ray, rt_hit_sphere
@@ -106,7 +109,9 @@
  *                 5 pixels             rt_encode
  *                 6 mirrors            rt_reflect
  *                 7 indirect light     rt_random, rt_sample_cosine, rt_radiance
- *                 8 pictures           rt_image, rt_options, rt_render
+ *                 8 many shapes        rt_bvh
+ *                 9 less noise         rt_sobol_start
+ *                   pictures           rt_image, rt_options, rt_render, rt_build_bvh
  *
  * Licence (MIT or public domain) at the end of the file; changes in CHANGELOG.md.
  */
@@ -1221,8 +1226,8 @@ typedef struct rt_options {
     float error;        /* stop when rt_image_error is down to this; the image needs half;
                            0: never */
     float seconds;      /* stop after this time, with at least one sample; 0: never */
-    int lanes; /* rays that rt_render traces at a time: 1, by chapters 1 to 7, or 4 or 8 if
-                  the machine can; 0: as many as it can. The picture is the same. */
+    int lanes; /* rays that rt_render traces at a time: 1, as chapters 1 to 7 do, or 4, 8 or
+                  16 if the machine can; 0: as many as it can. The picture is the same. */
 } rt_options;
 
 /* How it went; rt_status_text says it in words. */
@@ -1254,8 +1259,8 @@ typedef rt_vec3 rt_pixel_function(const void *context, float x, float y, rt_rng 
 /* Add options->samples samples to every pixel of the image: a random point in the square
  * of the pixel, the ray of the camera through it, rt_radiance along the ray, and the
  * mean. options may be NULL: all defaults. An empty scene gives the background, a scene
- * without lights the part of it that arrives. A scene of more than 8 shapes without a bvh
- * gets one for the time of the call; build it yourself if you render again and again.
+ * without lights the part of it that arrives. A scene without a bvh gets one for the time
+ * of the call; build it yourself if you render many shapes again and again.
  *
  * RT_OK when all samples are done, or the wanted error is reached, or the time is over.
  * RT_CANCELLED if progress returned false before that: the image holds what was done by
@@ -1285,8 +1290,8 @@ RTDEF float rt_image_error(const rt_image *image);
 
 /* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
  * set scene->bvh = bvh. It holds numbers of the scene's shapes, not the shapes: build it
- * anew when they move. Memory: some 120 bytes for each shape, and 25 more while it
- * builds, from RT_MALLOC, for rt_free_bvh to give back.
+ * anew when they move. Memory: 130 bytes are asked of RT_MALLOC for each shape, of which
+ * some 80 are used, for rt_free_bvh to give back; and 28 more while it builds.
  *
  * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
 RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
@@ -1308,8 +1313,10 @@ RTDEF rt_status rt_check_camera(const rt_camera *camera);
  * OpenMP. What rt_render refuses counts as the nearest that it takes, 1 or 1024. */
 RTDEF int rt_thread_count(int wanted);
 
-/* How many rays rt_render traces at a time for options->lanes = wanted: 1, 4 or 8, at most
- * what the machine and the compiler offer. */
+/* How many rays rt_render traces at a time for options->lanes = wanted: 1, 4, 8 or 16, at
+ * most what machine and compiler offer. (Packets are compiled by gcc and clang, with
+ * optimisation, for x86 - 4 lanes with SSE2, 8 with AVX2 and FMA, 16 with AVX-512, found
+ * out when the program runs - and for 64-bit ARM, 4 lanes.) */
 RTDEF int rt_lane_count(int wanted);
 
 /* What a status means, in English, without a full stop. Never NULL. */
@@ -1358,7 +1365,7 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_ERROR: return "error must not be negative, and needs image->half";
     case RT_BAD_SECONDS: return "seconds must not be negative";
     case RT_BAD_LANES:
-        return "lanes must be 0, 1, 4 or 8, and the machine must have them";
+        return "lanes must be 0, 1, 4, 8 or 16, and the machine must have them";
     case RT_BAD_BVH: return "bvh: was built for another number of shapes";
     case RT_BAD_CAMERA: return "camera: numbers up to 1e15, and 0 <= fov_y < 180";
     case RT_BAD_SPHERE: return "sphere: numbers up to 1e15, radius > 0, albedo 0 to 1";
@@ -1654,8 +1661,7 @@ static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
     node->max_z[k] = b->max.z;
 }
 
-/* All nodes; there is room for one node less than there are shapes. Groups that wait to
- * become nodes are on a stack. A tree that grows too deep - shapes at 1, 2, 4, 8 ... - is
+/* All nodes. Groups that wait to become nodes are on a stack. A tree that grows too deep - shapes at 1, 2, 4, 8 ... - is
  * cut in halves from some depth on: 20 + 31 / 3 levels, seven boxes waiting in each. */
 static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *order,
                                    int count)
@@ -1744,10 +1750,14 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     if (scene->sphere_count > INT_MAX - scene->box_count)
         return RT_NO_MEMORY;
     const int count = scene->sphere_count + scene->box_count;
-    const size_t n = count > 1 ? (size_t)count : 2; /* no malloc(0) */
+    const size_t n = (size_t)count + 1; /* no malloc(0) */
+    /* A node has eight boxes, or only shapes in them, two at least. So of L nodes with only
+     * shapes and I others, 7 I = L - 1 + (shapes in the others), and I + L is largest when
+     * L = n / 2: n / 2 + n / 14. */
+    const size_t nodes = n / 2 + n / 14 + 1;
     rt__bounds *bounds = (rt__bounds *)RT_MALLOC(n * sizeof *bounds);
     int *order = (int *)RT_MALLOC(n * sizeof *order);
-    bvh->nodes = (rt_bvh_node *)RT_MALLOC((n - 1) * sizeof *bvh->nodes);
+    bvh->nodes = (rt_bvh_node *)RT_MALLOC(nodes * sizeof *bvh->nodes);
     if (count <= RT__FEW)
         bvh->shapes = (rt__shape *)RT_MALLOC(RT__FEW * sizeof *bvh->shapes);
     const bool good = bounds && order && bvh->nodes && (bvh->shapes || count > RT__FEW);
@@ -2113,10 +2123,10 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #endif /* RT_IMPLEMENTATION */
 
 /* ====================================================================================
- * Packets: 4 or 8 rays at a time
+ * Packets: 4, 8 or 16 rays at a time
  *
- * A core of today adds 4 or 8 floats with the one instruction that adds one (SSE2 and
- * NEON: 4; AVX2: 8). So here are chapters 1 to 7 once more, for packets of neighbouring
+ * A core of today adds 4, 8 or 16 floats with the one instruction that adds one (SSE2 and
+ * NEON 4, AVX2 8, AVX-512 16). So here are chapters 1 to 7 once more, for packets of neighbouring
  * pixels: where they say float, this says rt__f, one float for each ray, its lane; a + b
  * adds lane by lane, a < b gives a mask with all bits set where it is true, and where
  * they say if, this says rt__select(mask, yes, no), because all lanes go the same way.
