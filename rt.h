@@ -953,13 +953,12 @@ typedef struct rt_bvh {
     rt_bvh_node *nodes; /* nodes[0] is around everything */
     int node_count, sphere_count, box_count;
     rt__shape *shapes; /* all of them, if they are few; or NULL */
-    float size;        /* the largest coordinate of any box */
 } rt_bvh;
 
 /* 1/u, but finite for u = 0: so large that what is outside stays outside. */
 static inline float rt__inverse(float u)
 {
-    return fabsf(u) > 1e-29f ? 1.0f / u : 1e29f;
+    return fabsf(u) > 1e-37f ? 1.0f / u : u < 0.0f ? -1e37f : 1e37f;
 }
 
 /* The part of a ray between two planes of an axis, low and high: cut t_in, t_out down. */
@@ -1090,7 +1089,7 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
                     return number;
             } else {
                 const float limit =
-                    t_max * (1.0f + FLT_EPSILON); /* t_max itself counts */
+                    t_max * (1.0f + FLT_EPSILON) + FLT_MIN; /* t_max, too */
                 const float found = rt__meet_shape(scene, number, ray, limit);
                 if (found > 0.0f &&
                     (found < t_max || (found == t_max && number < best))) {
@@ -1290,7 +1289,8 @@ RTDEF float rt_image_error(const rt_image *image);
 
 /* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
  * set scene->bvh = bvh. It holds numbers of the scene's shapes, not the shapes: build it
- * anew when they move. Memory: 130 bytes are asked of RT_MALLOC for each shape, of which
+ * anew when they move. (A sphere smaller than a hundred-millionth of its distance may be
+ * missed with the tree or hit without it: double does not tell.) Memory: 130 bytes are asked of RT_MALLOC for each shape, of which
  * some 80 are used, for rt_free_bvh to give back; and 28 more while it builds.
  *
  * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
@@ -1515,6 +1515,8 @@ static inline float rt__component(rt_vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
+/* A box around a shape, and a little more: its coordinates are rounded, and a ray in the
+ * very plane of a face must enter it (for rt__inverse makes 0 of 0/0). */
 static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
 {
     rt__bounds b;
@@ -1526,11 +1528,13 @@ static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
         const rt_vec3 r = rt_vec(s->radius, s->radius, s->radius);
         b.min = rt_sub(s->center, r);
         b.max = rt_add(s->center, r);
-        /* rounded outwards */
-        const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.min, -1.0f)), r);
-        b.min = rt_sub(b.min, rt_scale(size, FLT_EPSILON));
-        b.max = rt_add(b.max, rt_scale(size, FLT_EPSILON));
     }
+    const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
+                                 rt__max(b.min, rt_scale(b.min, -1.0f)));
+    const rt_vec3 margin =
+        rt_add(rt_scale(size, 2.0f * FLT_EPSILON), rt_vec(1e-15f, 1e-15f, 1e-15f));
+    b.min = rt_sub(b.min, margin);
+    b.max = rt_add(b.max, margin);
     return b;
 }
 
@@ -1726,7 +1730,27 @@ static inline rt__shape rt__shape_of(const rt_scene *scene, int number)
     return shape;
 }
 
-enum { RT__FEW = 16 }; /* so many shapes packets ask one by one, without a tree */
+/* So many shapes packets ask one by one, without the tree; if their numbers are neither so
+ * large that their squares are too much for float, nor so small that a ray which leaves
+ * one, see rt_leave, is on the other side of it already. */
+enum { RT__FEW = 16 };
+#define RT__MODERATE 1e7f
+
+static inline bool rt__are_few(const rt_scene *scene)
+{
+    const float most = RT__MODERATE;
+    bool good = scene->sphere_count <= RT__FEW && scene->box_count <= RT__FEW &&
+                scene->sphere_count + scene->box_count <= RT__FEW;
+    for (int i = 0; good && i < scene->sphere_count; i++) {
+        const rt_sphere *s = &scene->spheres[i];
+        good = rt__within(s->center, -most, most) && s->radius <= most &&
+               s->radius >= 1e-3f * (1.0f + rt_length(s->center) + s->radius);
+    }
+    for (int i = 0; good && i < scene->box_count; i++)
+        good = rt__within(scene->boxes[i].min, -most, most) &&
+               rt__within(scene->boxes[i].max, -most, most);
+    return good;
+}
 
 RTDEF void rt_free_bvh(rt_bvh *bvh)
 {
@@ -1750,7 +1774,7 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     if (scene->sphere_count > INT_MAX - scene->box_count)
         return RT_NO_MEMORY;
     const int count = scene->sphere_count + scene->box_count;
-    const size_t n = (size_t)count + 1; /* no malloc(0) */
+    const size_t n = (size_t)count + 1; /* at least one */
     /* A node has eight boxes, or only shapes in them, two at least. So of L nodes with only
      * shapes and I others, 7 I = L - 1 + (shapes in the others), and I + L is largest when
      * L = n / 2: n / 2 + n / 14. */
@@ -1758,9 +1782,10 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     rt__bounds *bounds = (rt__bounds *)RT_MALLOC(n * sizeof *bounds);
     int *order = (int *)RT_MALLOC(n * sizeof *order);
     bvh->nodes = (rt_bvh_node *)RT_MALLOC(nodes * sizeof *bvh->nodes);
-    if (count <= RT__FEW)
+    const bool few = rt__are_few(scene);
+    if (few)
         bvh->shapes = (rt__shape *)RT_MALLOC(RT__FEW * sizeof *bvh->shapes);
-    const bool good = bounds && order && bvh->nodes && (bvh->shapes || count > RT__FEW);
+    const bool good = bounds && order && bvh->nodes && (bvh->shapes || !few);
     if (good) {
         bounds[0] = rt__no_bounds();
         for (int i = 0; i < count; i++) {
@@ -1768,12 +1793,8 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
             order[i] = i;
         }
         rt__build_nodes(bvh, bounds, order, count);
-        for (int i = 0; i < count && count <= RT__FEW; i++)
+        for (int i = 0; i < count && few; i++)
             bvh->shapes[i] = rt__shape_of(scene, i);
-        const rt__bounds all = rt__bounds_of(bounds, order, count);
-        const rt_vec3 outmost = rt__max(all.max, rt_scale(all.min, -1.0f));
-        bvh->size = outmost.x > outmost.y ? outmost.x : outmost.y;
-        bvh->size = outmost.z > bvh->size ? outmost.z : bvh->size;
         bvh->sphere_count = scene->sphere_count;
         bvh->box_count = scene->box_count;
     }
@@ -1801,6 +1822,7 @@ struct rt__job {
     const rt_scene *scene; /* what rt_render is about */
     rt__film film;
     int bounces;
+    bool by_tree; /* packets ask the tree, not all shapes */
 };
 
 /* Which numbers the next sample of the pixels takes: those of (sample, seed). */
@@ -1998,16 +2020,6 @@ static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *r
 }
 
 #ifdef RT__PACKETS
-/* Packets square such numbers in float; larger ones are left to chapters 1 to 7. */
-static inline bool rt__moderate(const rt_scene *scene, const rt_camera *camera)
-{
-    const float most = 1e8f;
-    bool good = scene->bvh->size <= most && rt__within(camera->position, -most, most);
-    for (int i = 0; i < scene->light_count; i++)
-        good = good && rt__within(scene->lights[i].position, -most, most);
-    return good;
-}
-
 #define RT__LANES 4
 #include "rt.h" /* its last section, once for each number of lanes */
 #undef RT__LANES
@@ -2086,12 +2098,17 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
         return status;
 
     indexed = *scene;
-    if (!indexed.bvh && (lanes > 1 || scene->sphere_count + scene->box_count > RT__FEW)) {
+    if (!scene->bvh && (lanes > 1 || scene->sphere_count + scene->box_count > RT__FEW)) {
         status = rt_build_bvh(scene, &bvh);
         if (status != RT_OK)
             return status;
         indexed.bvh = &bvh;
     }
+    const float most = RT__MODERATE;
+    job.by_tree = !indexed.bvh || !indexed.bvh->shapes ||
+                  !rt__within(camera->position, -most, most);
+    for (int i = 0; i < scene->light_count; i++)
+        job.by_tree = job.by_tree || !rt__within(scene->lights[i].position, -most, most);
     job.image = image;
     job.scene = &indexed;
     job.film = rt__film_of(camera, image->width, image->height);
@@ -2101,7 +2118,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     job.pixel = rt__pixel;
     job.context = &job;
 #ifdef RT__PACKETS
-    if (lanes > 1 && rt__moderate(&indexed, camera)) {
+    if (lanes > 1) {
         job.step = rt__step_packets4;
         job.chunk = 128;
 #ifdef RT__X86
@@ -2150,6 +2167,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 
 #define RT__PASTE(name, lanes) name##lanes
 #define RT__NAME(name, lanes) RT__PASTE(name, lanes)
+#define rt__cuts RT__NAME(rt__cuts, RT__LANES)
 #define rt__cuts RT__NAME(rt__cuts, RT__LANES)
 #define rt__d RT__NAME(rt__d, RT__LANES)
 #define rt__d3 RT__NAME(rt__d3, RT__LANES)
@@ -2209,6 +2227,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define rt__near_sphere RT__NAME(rt__near_sphere, RT__LANES)
 #define rt__offer RT__NAME(rt__offer, RT__LANES)
 #define rt__owen RT__NAME(rt__owen, RT__LANES)
+#define rt__parallel RT__NAME(rt__parallel, RT__LANES)
 #define rt__path RT__NAME(rt__path, RT__LANES)
 #define rt__ray_of_lane RT__NAME(rt__ray_of_lane, RT__LANES)
 #define rt__scale RT__NAME(rt__scale, RT__LANES)
@@ -2606,6 +2625,13 @@ RT__INLINE rt__f rt__invert(rt__f u)
     return 1.0f / rt__select(rt__sign(rt__fabs(u) - 1e-29f), rt__splat(1e-29f), u);
 }
 
+/* Rays of which rt__invert does not tell the truth. */
+RT__INLINE rt__m rt__parallel(rt__f3 u)
+{
+    const rt__f least = rt__fmin(rt__fabs(u.x), rt__fmin(rt__fabs(u.y), rt__fabs(u.z)));
+    return rt__sign(least - 1e-29f);
+}
+
 RT__INLINE void rt__aim(rt__rays *r, rt__f3 origin, rt__f3 direction, rt__m outside,
                         rt__m inside)
 {
@@ -2686,31 +2712,33 @@ RT__INLINE void rt__offer(rt__nearest *n, rt__m may, rt__f low, rt__m at)
 }
 
 /* Chapter 1: t = (-b -+ root) / a. Outside the sphere (c > 0) the smaller root is the one,
- * if the sphere is ahead (b < 0); inside the larger. When in doubt, the smaller one, and a
- * root that may be too large: low may be too low, but not too high. */
+ * if the sphere is ahead (b < 0); inside the larger. When in doubt, the smaller one; and
+ * of the root what makes t smaller: low may be too low, but not too high. */
 RT__INLINE void rt__near_sphere(const rt__rays *r, rt__f less_over_a, rt__f slack,
                                 const rt__shape *shape, rt__m at, rt__nearest *n)
 {
     rt__f b, c, size;
     rt__terms(r, shape, &b, &c, &size);
     const rt__f doubt = size * size, twice = doubt + doubt;
-    const rt__f discriminant = rt__fma(r->a, doubt - c, b * b);
-    const rt__f root = rt__fsqrt(rt__fmax(discriminant, rt__splat(0.0f)));
     const rt__m inside = rt__sign(c + twice) | (r->inside == at);
-    const rt__m may = (rt__sign(b) | rt__sign(c - twice)) &
-                      ~(rt__sign(discriminant) | (r->outside == at));
+    const rt__f discriminant =
+        rt__fma(r->a, rt__select(inside, -doubt, doubt) - c, b * b);
+    const rt__f root = rt__fsqrt(rt__fmax(discriminant, rt__splat(0.0f)));
+    const rt__m may = inside | ((rt__sign(b) | rt__sign(c - twice)) &
+                                ~(rt__sign(discriminant) | (r->outside == at)));
     const rt__f t = less_over_a * (b + rt__select(inside, -root, root));
     rt__offer(n, may, rt__fnma(size, slack, t), at);
 }
 
-/* Chapter 3: the ways in and out of the slabs. */
-RT__INLINE void rt__near_box(const rt__rays *r, const rt__shape *shape, rt__m at,
-                             rt__nearest *n)
+/* Chapter 3: the ways in and out of the slabs. A ray in the very plane of a face, parallel to
+ * it, seems to leave at 0, so parallel rays are never sure to miss. */
+RT__INLINE void rt__near_box(const rt__rays *r, rt__m parallel, const rt__shape *shape,
+                             rt__m at, rt__nearest *n)
 {
     rt__f t_in, t_out;
     rt__slab(r, shape->center, shape->max, &t_in, &t_out);
     const rt__f doubt = (rt__fabs(t_in) + rt__fabs(t_out)) * (4.0f * FLT_EPSILON);
-    const rt__m may = ~(rt__sign(t_out - t_in + doubt) | rt__sign(t_out));
+    const rt__m may = parallel | ~(rt__sign(t_out - t_in + doubt) | rt__sign(t_out));
     const rt__f t = rt__select(t_in > 0.0f, t_in, t_out);
     rt__offer(n, may, t - doubt, at);
 }
@@ -2890,6 +2918,7 @@ RT__INLINE void rt__find(const rt_scene *scene, const rt__rays *r, rt__m lanes,
                     *const end = boxes + bvh->box_count;
     const rt__f less_over_a = -1.0f / r->a;
     const rt__f slack = rt__fsqrt(-less_over_a) * (0x1p-20f / RT__DOUBT);
+    const rt__m parallel = rt__parallel(r->direction);
     rt__m at = lanes & ~lanes;
     rt__nearest n;
     n.low = n.others = rt__splat(FLT_MAX);
@@ -2897,7 +2926,7 @@ RT__INLINE void rt__find(const rt_scene *scene, const rt__rays *r, rt__m lanes,
     for (; shape < boxes; shape++, at += (int)sizeof *shape)
         rt__near_sphere(r, less_over_a, slack, shape, at, &n);
     for (; shape < end; shape++, at += (int)sizeof *shape)
-        rt__near_box(r, shape, at, &n);
+        rt__near_box(r, parallel, shape, at, &n);
     rt__finish(scene, r, lanes, &n, hits);
 }
 
@@ -3003,7 +3032,7 @@ RT__INLINE void rt__blocks_sphere(const rt__rays *r, rt__m lanes, const rt__shap
     }
 }
 
-RT__INLINE void rt__blocks_box(const rt__rays *r, const rt__shape *shape,
+RT__INLINE void rt__blocks_box(const rt__rays *r, rt__m parallel, const rt__shape *shape,
                                rt__shade *shade)
 {
     const rt__f few = rt__splat(4.0f * FLT_EPSILON), zero = rt__splat(0.0f);
@@ -3011,8 +3040,9 @@ RT__INLINE void rt__blocks_box(const rt__rays *r, const rt__shape *shape,
     rt__slab(r, shape->center, shape->max, &t_in, &t_out);
     const rt__f t = rt__select(t_in > zero, t_in, t_out), long_in = t_out - t_in;
     const rt__m doubt =
+        parallel |
         rt__sign(rt__fabs(long_in) - (rt__fabs(t_in) + rt__fabs(t_out)) * few) |
-        rt__sign(rt__fabs(t - 1.0f) - few - few) | (t_in == zero) | (t_out == zero);
+        rt__sign(rt__fabs(t - 1.0f) - few - few);
     const rt__m blocks = (t_in <= t_out) & (t > zero) & (t < 1.0f);
     shade->sure |= blocks & ~doubt;
     shade->unsure |= doubt;
@@ -3041,8 +3071,9 @@ RT__INLINE rt__m rt__blocked(const rt_scene *scene, const rt__rays *r, rt__m lan
     shade.sure = shade.unsure = at;
     for (; shape < boxes; shape++, at += (int)sizeof *shape)
         rt__blocks_sphere(r, lanes, shape, at, &shade);
+    const rt__m parallel = rt__parallel(r->direction);
     for (; shape < end; shape++)
-        rt__blocks_box(r, shape, &shade);
+        rt__blocks_box(r, parallel, shape, &shade);
     const rt__m sure = shade.sure >> 31, unsure = lanes & (shade.unsure >> 31) & ~sure;
     if (rt__bits(unsure) != 0)
         return sure | rt__ask_shadow(scene, r, unsure);
@@ -3060,9 +3091,10 @@ RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__f3 direction)
 }
 
 /* rt_direct and rt_lambert; *rays counts the rays of each lane. */
-RT__INLINE rt__f3 rt__light(const rt_scene *scene, rt__m lanes, const rt__hits *hits,
+RT__INLINE rt__f3 rt__light(const rt__job *job, rt__m lanes, const rt__hits *hits,
                             rt__m *rays)
 {
+    const rt_scene *scene = job->scene;
     const rt__f zero = rt__splat(0.0f);
     rt__f3 sum = rt__vec(zero, zero, zero);
     for (int i = 0; i < scene->light_count; i++) {
@@ -3076,9 +3108,8 @@ RT__INLINE rt__f3 rt__light(const rt_scene *scene, rt__m lanes, const rt__hits *
         rt__rays shadow;
         const rt__f3 origin = rt__leave(hits->point, hits->normal, to_light);
         rt__aim(&shadow, origin, rt__sub(position, origin), hits->outside, hits->inside);
-        const rt__m blocked = scene->bvh->shapes
-                                  ? rt__blocked(scene, &shadow, lit)
-                                  : rt__blocked_in_tree(scene, &shadow, lit);
+        const rt__m blocked = job->by_tree ? rt__blocked_in_tree(scene, &shadow, lit)
+                                           : rt__blocked(scene, &shadow, lit);
         const rt__f dd = rt__dot(to_light, to_light);
         const rt__m counts = lit & ~blocked & (dd > 1e-20f) & (dd <= FLT_MAX);
         const rt__f cosine = toward / rt__fsqrt(dd);
@@ -3204,10 +3235,10 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
         rt__draw(numbers, &r1,
                  &r2); /* early: the core can do it while it waits for a root */
         *rays -= lanes;
-        if (scene->bvh->shapes)
-            rt__find(scene, r, lanes, &hits);
-        else
+        if (job->by_tree)
             rt__find_in_tree(scene, r, lanes, &hits);
+        else
+            rt__find(scene, r, lanes, &hits);
         const rt__m missed = lanes & ~hits.found;
         if (rt__bits(missed) != 0) {
             const rt__f3 light = rt__mul(throughput, rt__all(scene->background));
@@ -3215,7 +3246,7 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
             lanes &= hits.found;
         }
         const rt__m diffuse = lanes & ~hits.mirror;
-        const rt__f3 direct = rt__light(scene, diffuse, &hits, rays);
+        const rt__f3 direct = rt__light(job, diffuse, &hits, rays);
         sum = rt__vselect(diffuse, rt__add(sum, rt__mul(throughput, direct)), sum);
         if (bounce >= job->bounces || rt__bits(lanes) == 0)
             return sum;
@@ -3232,8 +3263,10 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
         lanes &= (throughput.x != 0.0f) | (throughput.y != 0.0f) | (throughput.z != 0.0f);
         if (rt__bits(lanes) == 0)
             return sum;
-        rt__aim(r, rt__leave(hits.point, n, direction), direction, hits.outside,
-                hits.inside);
+        /* a reflection so flat that it goes through the surface is no leaving of it */
+        const rt__m through = rt__dot(n, direction) < 0.0f;
+        rt__aim(r, rt__leave(hits.point, n, direction), direction, hits.outside | through,
+                hits.inside | through);
     }
 }
 
@@ -3301,6 +3334,7 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
 }
 
 #undef rt__cuts
+#undef rt__cuts
 #undef rt__d
 #undef rt__d3
 #undef rt__f
@@ -3359,6 +3393,7 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
 #undef rt__near_sphere
 #undef rt__offer
 #undef rt__owen
+#undef rt__parallel
 #undef rt__path
 #undef rt__ray_of_lane
 #undef rt__scale
