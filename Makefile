@@ -23,14 +23,14 @@ CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 # those that they wait for.
 export OMP_WAIT_POLICY ?= passive
 
-DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07
-HEADERS  = rt.h demos/demo.h demos/scene.h
+DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09
+HEADERS  = rt.h demos/demo.h demos/scene.h demos/loops.h demos/noise.h
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 .PHONY: help deps demos test golden check docs install clean $(DEMOS)
 
 help: ## this list
-	@echo '  make demo01 ... demo07  build and run a chapter; ARGS="1280 960 --samples 64"'
+	@echo '  make demo01 ... demo09  build and run a chapter; ARGS="1280 960 --samples 64"'
 	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
@@ -43,7 +43,7 @@ endif
 
 # ---------------------------------------------------------------------------- the demos
 
-demos: $(DEMOS:%=$(BUILD)/%) ## render all seven to build/, without windows
+demos: $(DEMOS:%=$(BUILD)/%) ## render all nine to build/, without windows
 	@for demo in $^; do $$demo --no-window $(ARGS) || exit; done
 
 $(DEMOS): %: $(BUILD)/%
@@ -84,7 +84,11 @@ docs: $(DEMOS:%=$(BUILD)/%) ## put excerpts and pictures into docs/ and README.m
 	@for demo in $(DEMOS); do \
 	    $(BUILD)/$$demo --no-window --quiet --out docs/images/$$demo.png || exit; \
 	done
-	$(BUILD)/demo07 --no-window --samples 256 --out docs/images/demo07-256.png
+	$(BUILD)/demo07 --no-window --quiet --samples 256 --out docs/images/demo07-256.png
+	@for sampler in random sobol; do \
+	    $(BUILD)/demo09 320 240 --sampler $$sampler --no-window --quiet \
+	        --out docs/images/demo09-$$sampler.png || exit; \
+	done
 	docs/excerpts.sh README.md docs/*.md
 
 install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR

@@ -231,9 +231,23 @@ static inline rt_dvec3 rt_to_double(rt_vec3 v)
     return rt_dvec((double)v.x, (double)v.y, (double)v.z);
 }
 
+/* gcc 12 forgets to round in (double)(float)x where it makes vectors of x and y by itself.
+ * An empty instruction that might change the float keeps it from looking through. */
+#if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2_MATH__)
+#define RT__ROUND(x) __asm__("" : "+x"(x))
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__aarch64__)
+#define RT__ROUND(x) __asm__("" : "+w"(x))
+#else
+#define RT__ROUND(x) (void)0
+#endif
+
 static inline rt_vec3 rt_to_float(rt_dvec3 v)
 {
-    return rt_vec((float)v.x, (float)v.y, (float)v.z);
+    rt_vec3 f = rt_vec((float)v.x, (float)v.y, (float)v.z);
+    RT__ROUND(f.x);
+    RT__ROUND(f.y);
+    RT__ROUND(f.z);
+    return f;
 }
 
 static inline double rt_ddot(rt_dvec3 a, rt_dvec3 b)
@@ -532,18 +546,18 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
         return rt__intersect_bvh(scene, ray, hit); /* the same answer, sooner */
     const rt_sphere *sphere = NULL;
     const rt_box *box = NULL;
-    float nearest = FLT_MAX;
+    float t_max = FLT_MAX;
     for (int i = 0; i < scene->sphere_count; i++) {
-        const float t = (float)rt__meet_sphere(&scene->spheres[i], ray, nearest);
+        const float t = (float)rt__meet_sphere(&scene->spheres[i], ray, t_max);
         if (t > 0.0f) {
-            nearest = t;
+            t_max = t;
             sphere = &scene->spheres[i];
         }
     }
     for (int i = 0; i < scene->box_count; i++) {
-        const float t = rt__meet_box(&scene->boxes[i], ray, nearest);
+        const float t = rt__meet_box(&scene->boxes[i], ray, t_max);
         if (t > 0.0f) {
-            nearest = t;
+            t_max = t;
             box = &scene->boxes[i];
         }
     }
@@ -1063,17 +1077,17 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
     int best = -1, count = 0;
     for (;;) {
         const int before = count;
-        rt__item nearest = UINT64_MAX;
+        rt__item first = UINT64_MAX;
         for (unsigned in = enter(node, ray, inverse, t_max, t); in != 0; in &= in - 1u) {
             const int k = rt__lowest(in);
             const rt__item item = rt__make_item(t[k], node->inside[k]);
-            waiting[count++] = item > nearest ? item : nearest;
-            nearest = item < nearest ? item : nearest;
+            waiting[count++] = item > first ? item : first;
+            first = item < first ? item : first;
         }
-        if (count >
-            before) { /* the nearest comes last, in place of the first UINT64_MAX */
+        if (count > before) {
+            /* the nearest comes last, what was last in place of the first UINT64_MAX */
             waiting[before] = waiting[count - 1];
-            waiting[count - 1] = nearest;
+            waiting[count - 1] = first;
         }
         for (node = NULL; !node;) {
             if (count == 0)
@@ -1088,8 +1102,8 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
                 if (rt__meet_shape(scene, number, ray, t_max) > 0.0f)
                     return number;
             } else {
-                const float limit =
-                    t_max * (1.0f + FLT_EPSILON) + FLT_MIN; /* t_max, too */
+                /* a little beyond t_max: a tie counts */
+                const float limit = t_max * (1.0f + FLT_EPSILON) + FLT_MIN;
                 const float found = rt__meet_shape(scene, number, ray, limit);
                 if (found > 0.0f &&
                     (found < t_max || (found == t_max && number < best))) {
@@ -1118,8 +1132,9 @@ static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, fl
  *
  * Random numbers fall in clumps and leave gaps: of 16 in (0, 1), it is rare that each
  * sixteenth gets one. What a gap does not see is noise. Numbers chosen to fill the
- * interval evenly, however many are taken, see more with the same rays: the error falls
- * almost as 1/n where that of random numbers falls as 1/sqrt(n).
+ * interval evenly, however many are taken, see more with the same rays. The error of
+ * random numbers falls as 1/sqrt(n); theirs falls faster, the more so the smoother the
+ * picture: in the room about as n^-0.6.
  * ==================================================================================== */
 
 /* The 32 bits in reverse order: swap halves, then quarters, and so on. */
@@ -1288,8 +1303,7 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
 RTDEF float rt_image_error(const rt_image *image);
 
 /* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
- * set scene->bvh = bvh. It holds numbers of the scene's shapes, not the shapes: build it
- * anew when they move. (A sphere smaller than a hundred-millionth of its distance may be
+ * set scene->bvh = bvh. When a shape or its material changes, build it anew. (A sphere smaller than a hundred-millionth of its distance may be
  * missed with the tree or hit without it: double does not tell.) Memory: 130 bytes are asked of RT_MALLOC for each shape, of which
  * some 80 are used, for rt_free_bvh to give back; and 28 more while it builds.
  *

@@ -1,5 +1,5 @@
-/* What the seven demos share; see demo.h. In this order: the command line, files, the state
- * of a run, progress, the window, demo_main. No ray tracing: demo->pixel does that. */
+/* What the nine demos share; see demo.h. In this order: the command line, files, the state
+ * of a run, progress, the window, demo_main. No ray tracing: the demo does that. */
 #define _XOPEN_SOURCE 700 /* isatty, fileno, stat, sigaction, realpath */
 #define RT_IMPLEMENTATION
 #include "demo.h"
@@ -28,7 +28,10 @@ enum { DONE = 0, FAILED = 1, WRONG_USE = 2, INTERRUPTED = 130 };
 #define MAX_PIXELS 67108864 /* 8192 x 8192 */
 
 typedef struct settings {
-    long long width, height, samples, bounces, threads, seed;
+    long long width, height, bounces, threads, lanes, seed;
+    long long samples;    /* 0: as many as error and seconds allow */
+    float error, seconds; /* 0: not wanted */
+    rt_sampler sampler;
     const char *out;
     bool window, quiet, help;
 } settings;
@@ -39,9 +42,14 @@ static void print_help(const demo *d)
         "%s - %s\n\n"
         "  build/%s [WIDTH HEIGHT] [options]        (default 640 480)\n"
         "  make %s ARGS=\"WIDTH HEIGHT options\"\n\n"
-        "  --samples N   samples per pixel (default %d)\n"
+        "  --samples N   samples per pixel (default %d; with --error or --time no "
+        "limit)\n"
+        "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
+        "  --time S      stop after S seconds\n"
         "  --bounces N   how often a ray is sent on (default %d%s)\n"
-        "  --threads N   threads, 1 to 1024 (default: all cores)\n"
+        "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
+        "  --lanes N     rays at a time, 1, 4, 8 or 16 (default: %s)\n"
+        "  --sampler S   random or sobol numbers (default %s)\n"
         "  --seed N      another seed, another noise (default 0)\n"
         "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
         "                or %s.png where there is no folder build)\n"
@@ -50,7 +58,9 @@ static void print_help(const demo *d)
         "  --help        this\n\n"
         "In the window: s saves, Esc or q ends. Ctrl-C saves what there is and ends.\n",
         d->name, d->title, d->name, d->name, d->samples, d->bounces,
-        d->bounces == 0 ? "; this chapter has none yet" : "", d->name, d->name);
+        d->bounces == 0 ? "; this chapter has none yet" : "",
+        d->render ? "as many as the machine can" : "1; this chapter has no more",
+        d->sobol ? "sobol" : "random", d->name, d->name);
 }
 
 /* A whole number from low to high, digits only; otherwise one line that says so. */
@@ -71,6 +81,38 @@ static bool parse_number(const demo *d, const char *name, const char *text, long
     return good;
 }
 
+/* A decimal number above 0, digits and a point, whatever the locale says. */
+static bool parse_decimal(const demo *d, const char *name, const char *text,
+                          const char *what, float *value)
+{
+    bool good = text && strspn(text, "0123456789.") == strlen(text);
+    if (good) {
+        char *end;
+        const double number = strtod(text, &end); /* nobody here calls setlocale */
+        good = *end == '\0' && number <= (double)FLT_MAX && (float)number > 0.0f;
+        *value = good ? (float)number : 0.0f;
+    }
+    if (!good && !text)
+        fprintf(stderr, "%s: %s: a number is missing\n", d->name, name);
+    else if (!good)
+        fprintf(stderr, "%s: %s: '%s': the %s must be a decimal number above 0\n",
+                d->name, name, text, what);
+    return good;
+}
+
+static bool parse_sampler(const demo *d, const char *text, rt_sampler *sampler)
+{
+    const bool random = text && strcmp(text, "random") == 0;
+    const bool good = random || (text && strcmp(text, "sobol") == 0);
+    if (good)
+        *sampler = random ? RT_RANDOM : RT_SOBOL;
+    else if (!text)
+        fprintf(stderr, "%s: --sampler: a name is missing\n", d->name);
+    else
+        fprintf(stderr, "%s: --sampler: '%s' is not random or sobol\n", d->name, text);
+    return good;
+}
+
 static bool parse(const demo *d, int argc, char **argv, settings *s)
 {
     const struct {
@@ -79,18 +121,29 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
     } numbers[] = {
         {"--samples", 1, INT_MAX, &s->samples},
         {"--bounces", 0, INT_MAX, &s->bounces},
-        {"--threads", 1, 1024, &s->threads},
+        {"--threads", 0, 1024, &s->threads},
+        {"--lanes", 1, 16, &s->lanes}, /* more about it below */
         {"--seed", 0, UINT32_MAX, &s->seed},
     };
+    const size_t number_count = sizeof numbers / sizeof numbers[0];
     int positional = 0;
     for (int i = 1; i < argc; i++) {
         const char *arg = argv[i];
         size_t n = 0;
-        while (n < 4 && strcmp(arg, numbers[n].name) != 0)
+        while (n < number_count && strcmp(arg, numbers[n].name) != 0)
             n++;
-        if (n < 4) {
+        if (n < number_count) {
             if (!parse_number(d, arg, argv[++i], numbers[n].low, numbers[n].high,
                               numbers[n].value))
+                return false;
+        } else if (strcmp(arg, "--error") == 0) {
+            if (!parse_decimal(d, arg, argv[++i], "wanted error", &s->error))
+                return false;
+        } else if (strcmp(arg, "--time") == 0) {
+            if (!parse_decimal(d, arg, argv[++i], "time in seconds", &s->seconds))
+                return false;
+        } else if (strcmp(arg, "--sampler") == 0) {
+            if (!parse_sampler(d, argv[++i], &s->sampler))
                 return false;
         } else if (strcmp(arg, "--out") == 0) {
             s->out = argv[++i];
@@ -122,6 +175,12 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
     if (s->width > MAX_PIXELS / s->height) {
         fprintf(stderr, "%s: %lld x %lld is too large: at most %d pixels in all\n",
                 d->name, s->width, s->height, MAX_PIXELS);
+        return false;
+    }
+    if (s->lanes > 0 && rt_lane_count((int)s->lanes) != s->lanes) {
+        fprintf(stderr,
+                "%s: --lanes: '%lld' is not 1, 4, 8 or 16; this machine has up to %d\n",
+                d->name, s->lanes, rt_lane_count(0));
         return false;
     }
     const char *dot = strrchr(s->out, '.');
@@ -250,9 +309,21 @@ static void interrupt(int signal)
     interrupted = 1;
 }
 
-static double seconds(void)
+static const char *plural(long long n)
 {
-    return (double)SDL_GetPerformanceCounter() / (double)SDL_GetPerformanceFrequency();
+    return n == 1 ? "" : "s";
+}
+
+/* How many samples the image has, and, where it can be estimated, the error. */
+static void describe(const rt_image *image, char *text, size_t size)
+{
+    const double error = (double)rt_image_error(image);
+    const int n =
+        snprintf(text, size, "%d sample%s", image->samples, plural(image->samples));
+    if (error <= DBL_MAX)
+        snprintf(text + n, size - (size_t)n, ", error %.2f %%", 100.0 * error);
+    else if (image->half)
+        snprintf(text + n, size - (size_t)n, ", error unknown");
 }
 
 static void encode(run *r)
@@ -348,7 +419,7 @@ static bool on_terminal(void)
 
 static void print_progress(run *r, double part)
 {
-    const double now = seconds();
+    const double now = demo_seconds();
     if (r->s.quiet)
         return;
     if (on_terminal()) {
@@ -359,8 +430,11 @@ static void print_progress(run *r, double part)
         for (int i = 0; i < 30; i++)
             bar[i] = i < (int)(30.0 * part) ? '#' : '.';
         bar[30] = '\0';
-        const double left = (now - r->started) * (1.0 - part) / part;
-        fprintf(stderr, "\r\033[K[%s] %3.0f %%, %.0f s left ", bar, 100.0 * part, left);
+        fprintf(stderr, "\r\033[K[%s] %3.0f %%, ", bar, 100.0 * part);
+        if (r->s.samples == 0 && part < 0.01) /* too early to tell */
+            fprintf(stderr, "%d sample%s ", r->image.samples, plural(r->image.samples));
+        else
+            fprintf(stderr, "%.0f s left ", (now - r->started) * (1.0 - part) / part);
     } else if (part < 1.0 && (int)(4.0 * part) > r->quarters) {
         r->quarters = (int)(4.0 * part);
         fprintf(stderr, "%d %%\n", 25 * r->quarters);
@@ -445,12 +519,15 @@ static void open_window(run *r)
 static void draw(run *r, double part)
 {
     char title[200];
-    if (part < 1.0)
-        snprintf(title, sizeof title, "%s - %.0f %% (s saves, q ends)", r->d->title,
-                 100.0 * part);
-    else
-        snprintf(title, sizeof title, "%s - done, %d samples (s saves, q ends)",
-                 r->d->title, r->image.samples);
+    if (part < 1.0) {
+        snprintf(title, sizeof title, "%s - %.0f %%, %d sample%s (s saves, q ends)",
+                 r->d->title, 100.0 * part, r->image.samples, plural(r->image.samples));
+    } else {
+        char result[100];
+        describe(&r->image, result, sizeof result);
+        snprintf(title, sizeof title, "%s - done, %s (s saves, q ends)", r->d->title,
+                 result);
+    }
     SDL_SetWindowTitle(r->window, title);
     encode(r);
     SDL_UpdateTexture(r->texture, NULL, r->bytes, 3 * r->image.width);
@@ -485,10 +562,10 @@ static bool progress(void *user, float part)
         SDL_Event event;
         while (!r->closed && SDL_PollEvent(&event))
             handle(r, &event);
-        const double now = seconds();
+        const double now = demo_seconds();
         if (!r->closed && now >= r->draw_due) { /* 30 a second, 5 % of the time at most */
             draw(r, (double)part);
-            const double took = seconds() - now;
+            const double took = demo_seconds() - now;
             r->draw_due = now + took + (20.0 * took > 0.033 ? 20.0 * took : 0.033);
         }
     }
@@ -515,6 +592,11 @@ static void wait_until_closed(run *r)
  * The whole program
  * ------------------------------------------------------------------------------------- */
 
+double demo_seconds(void)
+{
+    return (double)SDL_GetPerformanceCounter() / (double)SDL_GetPerformanceFrequency();
+}
+
 unsigned char demo_linear(float value)
 {
     return rt_encode(value, 1.0);
@@ -531,27 +613,52 @@ static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
     return r->d->pixel(&r->view, x, y, rng);
 }
 
-static const char *plural(long long n)
+static void print_job(const run *r)
 {
-    return n == 1 ? "" : "s";
+    const settings *s = &r->s;
+    const int threads = rt_thread_count((int)s->threads);
+    printf("%s: %lld x %lld, ", r->d->name, s->width, s->height);
+    if (s->samples == 0)
+        printf("samples");
+    else
+        printf("%s%lld sample%s", s->error > 0.0f || s->seconds > 0.0f ? "at most " : "",
+               s->samples, plural(s->samples));
+    if (s->error > 0.0f)
+        printf(" until the error is %g %%", 100.0 * (double)s->error);
+    if (s->seconds > 0.0f)
+        printf(", %g s at most", (double)s->seconds);
+    printf(", %lld bounce%s, %d thread%s", s->bounces, plural(s->bounces), threads,
+           plural(threads));
+    if (r->d->render)
+        printf(", %d at a time", rt_lane_count((int)s->lanes));
+    printf("\n");
+    fflush(stdout);
+}
+
+static rt_status render(run *r)
+{
+    const rt_options options = {.samples = (int)r->s.samples,
+                                .bounces = (int)r->s.bounces,
+                                .threads = (int)r->s.threads,
+                                .seed = (uint32_t)r->s.seed,
+                                .progress = progress,
+                                .user = r,
+                                .sampler = r->s.sampler,
+                                .error = r->s.error,
+                                .seconds = r->s.seconds,
+                                .lanes = (int)r->s.lanes};
+    if (r->d->render)
+        return r->d->render(&options, &r->image);
+    return rt_render_pixels(call_pixel, r, &options, &r->image);
 }
 
 static int render_and_save(run *r)
 {
-    const rt_options options = {.samples = (int)r->s.samples,
-                                .threads = (int)r->s.threads,
-                                .seed = (uint32_t)r->s.seed,
-                                .progress = progress,
-                                .user = r};
-    const int threads = rt_thread_count(options.threads);
     if (!r->s.quiet)
-        printf("%s: %lld x %lld, %lld sample%s, %lld bounce%s, %d thread%s\n", r->d->name,
-               r->s.width, r->s.height, r->s.samples, plural(r->s.samples), r->s.bounces,
-               plural(r->s.bounces), threads, plural(threads));
-    fflush(stdout);
-    r->started = seconds();
-    const rt_status status = rt_render_pixels(call_pixel, r, &options, &r->image);
-    const double took = seconds() - r->started;
+        print_job(r);
+    r->started = demo_seconds();
+    const rt_status status = render(r);
+    const double took = demo_seconds() - r->started;
     end_progress(r);
     if (status != RT_OK && status != RT_CANCELLED) {
         fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status));
@@ -564,10 +671,13 @@ static int render_and_save(run *r)
     }
     if (!save(r))
         return FAILED;
-    if (!r->s.quiet)
-        printf("%s: %.2f s, %.1f million rays per second, wrote %s%s\n", r->d->name, took,
-               (double)r->image.rays / took * 1e-6, r->s.out,
+    if (!r->s.quiet) {
+        char result[100];
+        describe(&r->image, result, sizeof result);
+        printf("%s: %.2f s, %s, %.1f million rays per second, wrote %s%s\n", r->d->name,
+               took, result, (double)r->image.rays / took * 1e-6, r->s.out,
                status == RT_CANCELLED ? " (interrupted)" : "");
+    }
     fflush(stdout);
     if (r->window && status == RT_OK)
         wait_until_closed(r);
@@ -583,8 +693,8 @@ int demo_main(int argc, char **argv, const demo *d)
     run r = {.d = d,
              .s = {.width = 640,
                    .height = 480,
-                   .samples = d->samples,
                    .bounces = d->bounces,
+                   .sampler = d->sobol ? RT_SOBOL : RT_RANDOM,
                    .out = out,
                    .window = true}};
     if (!parse(d, argc, argv, &r.s))
@@ -598,6 +708,11 @@ int demo_main(int argc, char **argv, const demo *d)
     if (d->bounces == 0 && r.s.bounces > 0 && !r.s.quiet)
         printf("%s: this chapter has no bounces yet, --bounces changes nothing\n",
                d->name);
+    if (!d->render && r.s.lanes > 0 && !r.s.quiet)
+        printf("%s: this chapter traces one ray at a time, --lanes changes nothing\n",
+               d->name);
+    if (r.s.samples == 0 && r.s.error == 0.0f && r.s.seconds == 0.0f)
+        r.s.samples = d->samples;
 
     const size_t count = (size_t)r.s.width * (size_t)r.s.height;
     r.image.width = (int)r.s.width;
@@ -605,8 +720,13 @@ int demo_main(int argc, char **argv, const demo *d)
     r.view = (demo_view){r.image.width, r.image.height, (int)r.s.bounces};
     r.image.pixels = calloc(count, sizeof *r.image.pixels);
     r.bytes = malloc(count * 3);
+    const bool estimate = d->estimate || r.s.error > 0.0f;
+    if (estimate)
+        r.image.half = calloc(count, sizeof *r.image.half);
     int result = FAILED;
-    if (r.image.pixels && r.bytes) {
+    if (r.image.pixels && r.bytes && (r.image.half || !estimate)) {
+        if (d->measure && !r.s.quiet)
+            d->measure(rt_thread_count((int)r.s.threads));
         struct sigaction action = {.sa_handler = interrupt};
         action.sa_flags = (int)SA_RESETHAND;
         sigaction(SIGINT, &action, NULL);
@@ -622,6 +742,7 @@ int demo_main(int argc, char **argv, const demo *d)
                 r.s.width, r.s.height);
     }
     free(r.image.pixels);
+    free(r.image.half);
     free(r.bytes);
     if (ferror(stdout) || fflush(stdout) != 0) {
         fprintf(stderr, "%s: cannot write to standard output\n", d->name);

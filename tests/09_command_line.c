@@ -171,7 +171,7 @@ static void test_lanes(void **state)
 {
     (void)state;
     expect(0, "", "demo09 60 40 --samples 4 --quiet --out 1.png --lanes 1");
-    for (int lanes = 4; lanes <= 8; lanes += 4) {
+    for (int lanes = 4; lanes <= 16; lanes *= 2) {
         char arguments[100];
         snprintf(arguments, sizeof arguments,
                  "demo09 60 40 --samples 4 --quiet --out 2.png --lanes %d", lanes);
@@ -341,8 +341,9 @@ static void test_wrong_use(void **state)
         {"--sampler Sobol", "--sampler: 'Sobol'"},
         {"--lanes", "--lanes: a number is missing"},
         {"--lanes 0", "--lanes: '0'"},
-        {"--lanes 2", "--lanes: '2' is not 1, 4 or 8"},
-        {"--lanes 16", "--lanes: '16'"},
+        {"--lanes 2", "--lanes: '2' is not 1, 4, 8 or 16"},
+        {"--lanes 12", "--lanes: '12'"},
+        {"--lanes 17", "--lanes: '17'"},
         {"--seed 4294967296", "--seed: '4294967296'"},
         {"--seed", "--seed: a number is missing"},
         {"--out", "--out: a file name is missing"},

@@ -57,7 +57,7 @@ int demo_main(int argc, char **argv, const demo *d)
                                     .bounces = d->bounces,
                                     .threads = threads,
                                     .sampler = d->sobol ? RT_SOBOL : RT_RANDOM,
-                                    .lanes = rt_lane_count(threads)}; /* 1, 4 and 8 */
+                                    .lanes = rt_lane_count(2 * threads)}; /* 1 to 16 */
         image.half = d->estimate ? half : NULL;
         const rt_status status =
             d->render ? d->render(&options, &image)
