@@ -27,7 +27,7 @@ DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09
 HEADERS  = rt.h demos/demo.h demos/scene.h demos/loops.h demos/noise.h
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
-.PHONY: help deps demos test golden check docs install clean $(DEMOS)
+.PHONY: help deps demos test golden check bench docs install clean $(DEMOS)
 
 help: ## this list
 	@echo '  make demo01 ... demo09  build and run a chapter; ARGS="1280 960 --samples 64"'
@@ -79,6 +79,9 @@ check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windo
 	@tests/check $*
 
 # ---------------------------------------------------------------------------- the rest
+
+bench: ## speed against the report's way and other renderers, about a minute
+	@CC='$(CC)' CXX='$(CXX)' CFLAGS='$(CFLAGS)' OPENMP='$(OPENMP)' BUILD='$(BUILD)' tests/bench/run
 
 docs: $(DEMOS:%=$(BUILD)/%) ## put excerpts and pictures into docs/ and README.md
 	@for demo in $(DEMOS); do \

@@ -1747,7 +1747,7 @@ static inline rt__shape rt__shape_of(const rt_scene *scene, int number)
 /* So many shapes packets ask one by one, without the tree; if their numbers are neither so
  * large that their squares are too much for float, nor so small that a ray which leaves
  * one, see rt_leave, is on the other side of it already. */
-enum { RT__FEW = 16 };
+enum { RT__FEW = 64 };
 #define RT__MODERATE 1e7f
 
 static inline bool rt__are_few(const rt_scene *scene)
@@ -2183,6 +2183,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define RT__NAME(name, lanes) RT__PASTE(name, lanes)
 #define rt__cuts RT__NAME(rt__cuts, RT__LANES)
 #define rt__cuts RT__NAME(rt__cuts, RT__LANES)
+#define rt__cuts RT__NAME(rt__cuts, RT__LANES)
 #define rt__d RT__NAME(rt__d, RT__LANES)
 #define rt__d3 RT__NAME(rt__d3, RT__LANES)
 #define rt__f RT__NAME(rt__f, RT__LANES)
@@ -2209,6 +2210,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define rt__cosine RT__NAME(rt__cosine, RT__LANES)
 #define rt__cut_axis RT__NAME(rt__cut_axis, RT__LANES)
 #define rt__ddot RT__NAME(rt__ddot, RT__LANES)
+#define rt__depart RT__NAME(rt__depart, RT__LANES)
 #define rt__dmad RT__NAME(rt__dmad, RT__LANES)
 #define rt__dot RT__NAME(rt__dot, RT__LANES)
 #define rt__draw RT__NAME(rt__draw, RT__LANES)
@@ -3104,6 +3106,15 @@ RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__f3 direction)
     return rt__add(point, rt__scale(normal, rt__select(below, -offset, offset)));
 }
 
+/* Rays that go on from where others hit. A reflection so flat that it goes through the
+ * surface, or a way back to a light that is nearer than rt_leave's step, leaves nothing. */
+RT__INLINE void rt__depart(rt__rays *r, const rt__hits *hits, rt__f3 origin,
+                           rt__f3 direction)
+{
+    const rt__m through = rt__dot(hits->normal, direction) < 0.0f;
+    rt__aim(r, origin, direction, hits->outside | through, hits->inside | through);
+}
+
 /* rt_direct and rt_lambert; *rays counts the rays of each lane. */
 RT__INLINE rt__f3 rt__light(const rt__job *job, rt__m lanes, const rt__hits *hits,
                             rt__m *rays)
@@ -3121,7 +3132,7 @@ RT__INLINE rt__f3 rt__light(const rt__job *job, rt__m lanes, const rt__hits *hit
         *rays -= lit;
         rt__rays shadow;
         const rt__f3 origin = rt__leave(hits->point, hits->normal, to_light);
-        rt__aim(&shadow, origin, rt__sub(position, origin), hits->outside, hits->inside);
+        rt__depart(&shadow, hits, origin, rt__sub(position, origin));
         const rt__m blocked = job->by_tree ? rt__blocked_in_tree(scene, &shadow, lit)
                                            : rt__blocked(scene, &shadow, lit);
         const rt__f dd = rt__dot(to_light, to_light);
@@ -3277,10 +3288,7 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
         lanes &= (throughput.x != 0.0f) | (throughput.y != 0.0f) | (throughput.z != 0.0f);
         if (rt__bits(lanes) == 0)
             return sum;
-        /* a reflection so flat that it goes through the surface is no leaving of it */
-        const rt__m through = rt__dot(n, direction) < 0.0f;
-        rt__aim(r, rt__leave(hits.point, n, direction), direction, hits.outside | through,
-                hits.inside | through);
+        rt__depart(r, &hits, rt__leave(hits.point, n, direction), direction);
     }
 }
 
@@ -3349,6 +3357,7 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
 
 #undef rt__cuts
 #undef rt__cuts
+#undef rt__cuts
 #undef rt__d
 #undef rt__d3
 #undef rt__f
@@ -3375,6 +3384,7 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
 #undef rt__cosine
 #undef rt__cut_axis
 #undef rt__ddot
+#undef rt__depart
 #undef rt__dmad
 #undef rt__dot
 #undef rt__draw
