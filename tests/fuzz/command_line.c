@@ -20,9 +20,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     argv[argc] = NULL;
     if (!parse(&d, argc, argv, &s))
         return 0;
-    if (s.width < 1 || s.height < 1 || s.width * s.height > MAX_PIXELS || s.samples < 1 ||
+    if (s.width < 1 || s.height < 1 || s.width * s.height > MAX_PIXELS || s.samples < 0 ||
         s.samples > INT_MAX || s.bounces < 0 || s.bounces > INT_MAX || s.threads < 0 ||
-        s.threads > 1024 || s.seed < 0 || s.seed > UINT32_MAX || strlen(s.out) < 4)
+        s.threads > 1024 || s.seed < 0 || s.seed > UINT32_MAX || strlen(s.out) < 4 ||
+        (s.lanes != 0 && rt_lane_count((int)s.lanes) != s.lanes) ||
+        !(s.error >= 0.0f && s.error <= FLT_MAX) ||
+        !(s.seconds >= 0.0f && s.seconds <= FLT_MAX) ||
+        (s.sampler != RT_SOBOL && s.sampler != RT_RANDOM))
         abort();
     return 0;
 }

@@ -31,7 +31,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     rt_scene scene;
     rt_options options;
-    rt_image image = {in.width % 5, in.height % 5, pixels, 0, 0, 0};
+    static rt_vec3 half[16];
+    rt_image image;
+    memset(&image, 0, sizeof image);
+    image.width = in.width % 5;
+    image.height = in.height % 5;
+    image.pixels = pixels;
+    image.half = (in.mirrors >> 7 & 1) != 0 ? half : NULL;
     memset(&scene, 0, sizeof scene);
     memset(&options, 0, sizeof options);
     scene.spheres = in.spheres;
@@ -44,6 +50,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     options.samples = in.samples % 3;
     options.bounces = in.bounces;
     options.threads = in.threads % 2;
+    options.sampler = (in.mirrors >> 5 & 1) != 0 ? RT_RANDOM : RT_SOBOL;
+    options.lanes = in.mirrors >> 6 & 1; /* 1: one ray at a time, 0: packets */
     if (rt_render(&scene, &in.camera, &options, &image) != RT_OK)
         return 0;
     for (int i = 0; i < image.width * image.height; i++)
