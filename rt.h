@@ -2136,9 +2136,9 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
         job.step = rt__step_packets4;
         job.chunk = 128;
 #ifdef RT__X86
-        if (lanes == 8)
+        if (lanes >= 8)
             job.step = rt__step_packets8;
-        if (lanes == 16)
+        if (lanes == 16 && !job.by_tree) /* its nodes have eight boxes */
             job.step = rt__step_packets16;
 #endif
     }
@@ -2746,8 +2746,8 @@ RT__INLINE void rt__near_sphere(const rt__rays *r, rt__f less_over_a, rt__f slac
     rt__offer(n, may, rt__fnma(size, slack, t), at);
 }
 
-/* Chapter 3: the ways in and out of the slabs. A ray in the very plane of a face, parallel to
- * it, seems to leave at 0, so parallel rays are never sure to miss. */
+/* Chapter 3: the ways in and out of the slabs. Of parallel rays nothing is sure: they may
+ * run in the very plane of a face. */
 RT__INLINE void rt__near_box(const rt__rays *r, rt__m parallel, const rt__shape *shape,
                              rt__m at, rt__nearest *n)
 {
@@ -2755,8 +2755,8 @@ RT__INLINE void rt__near_box(const rt__rays *r, rt__m parallel, const rt__shape 
     rt__slab(r, shape->center, shape->max, &t_in, &t_out);
     const rt__f doubt = (rt__fabs(t_in) + rt__fabs(t_out)) * (4.0f * FLT_EPSILON);
     const rt__m may = parallel | ~(rt__sign(t_out - t_in + doubt) | rt__sign(t_out));
-    const rt__f t = rt__select(t_in > 0.0f, t_in, t_out);
-    rt__offer(n, may, t - doubt, at);
+    const rt__f t = rt__select(t_in > 0.0f, t_in, t_out), zero = rt__splat(0.0f);
+    rt__offer(n, may, rt__select(parallel, zero, t - doubt), at);
 }
 
 /* What rt_hit says, for a packet, with what chapter 7 wants to know of the material. */

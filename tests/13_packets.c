@@ -1,0 +1,853 @@
+/* The last section of rt.h: packets of rays make the picture that chapters 1 to 7 make, to the
+ * bit. Compiled with RT_NO_PACKETS, this is a program that says what it makes without. */
+#define _XOPEN_SOURCE 700 /* scandir, mkstemp, popen */
+#ifdef RT_NO_PACKETS
+#define RT_IMPLEMENTATION
+#include "../demos/scene.h"
+#include <stdio.h>
+#include <string.h>
+#else
+#include <dirent.h>
+#include <unistd.h>
+
+#include "../demos/scene.h"
+#include "scene_file.h"
+#include "test.h"
+#endif
+
+/* A number for all bits of a picture of the room: FNV-1a. */
+static uint64_t hash_of_the_room(int lanes)
+{
+    enum { W = 37, H = 21 };
+    static rt_vec3 pixels[W * H];
+    rt_image image = {.width = W, .height = H, .pixels = pixels};
+    const rt_options options = {.samples = 3, .bounces = 5, .lanes = lanes};
+    if (rt_render(&scene_indirect, &room_camera, &options, &image) != RT_OK)
+        return 0;
+    uint64_t hash = 14695981039346656037u ^ image.rays;
+    for (int i = 0; i < W * H; i++) {
+        uint32_t bits[3];
+        memcpy(bits, &pixels[i], sizeof bits);
+        for (int k = 0; k < 3; k++)
+            hash = (hash ^ bits[k]) * 1099511628211u;
+    }
+    return hash;
+}
+
+#ifdef RT_NO_PACKETS
+
+int main(void)
+{
+    rt_vec3 pixel;
+    rt_image image = {.width = 1, .height = 1, .pixels = &pixel};
+    const rt_options four = {.lanes = 4};
+    if (rt_lane_count(0) != 1 || rt_lane_count(8) != 1 ||
+        rt_render(&scene_indirect, &room_camera, &four, &image) != RT_BAD_LANES)
+        return 1;
+    printf("%016llx\n", (unsigned long long)hash_of_the_room(0));
+    return 0;
+}
+
+#else
+
+/* ---- the same picture with every number of lanes ------------------------------------ */
+
+typedef struct picture {
+    rt_scene scene;
+    rt_camera camera;
+    rt_options options;
+    int width, height, first; /* first: number of the first sample */
+} picture;
+
+static rt_image draw(const picture *p, int lanes)
+{
+    rt_image image = new_image(p->width, p->height);
+    rt_options options = p->options;
+    image.samples = p->first;
+    options.lanes = lanes;
+    const rt_status status = rt_render(&p->scene, &p->camera, &options, &image);
+    if (status != RT_OK)
+        fail_msg("%d lanes: %s", lanes, rt_status_text(status));
+    return image;
+}
+
+/* Twice the number of lanes, as far as there are; 0: no more. */
+static int more_lanes(int lanes)
+{
+    const int more = lanes < 4 ? 4 : 2 * lanes;
+    return more <= rt_lane_count(0) ? more : 0;
+}
+
+static int bright; /* how many pictures of compare were not black */
+
+static void compare(const picture *p, const char *name, int number)
+{
+    rt_image expected = draw(p, 1);
+    const int count = p->width * p->height;
+    for (int lanes = more_lanes(1); lanes != 0; lanes = more_lanes(lanes)) {
+        rt_image image = draw(p, lanes);
+        for (int i = 0; i < count; i++) {
+            const rt_vec3 a = expected.pixels[i], b = image.pixels[i];
+            if (memcmp(&a, &b, sizeof a) != 0)
+                fail_msg(
+                    "%s %d: pixel (%d, %d) is (%.9g, %.9g, %.9g), with %d lanes (%.9g, "
+                    "%.9g, %.9g)",
+                    name, number, i % p->width, i / p->width, (double)a.x, (double)a.y,
+                    (double)a.z, lanes, (double)b.x, (double)b.y, (double)b.z);
+        }
+        if (image.rays != expected.rays)
+            fail_msg("%s %d: %llu rays, with %d lanes %llu", name, number,
+                     (unsigned long long)expected.rays, lanes,
+                     (unsigned long long)image.rays);
+        free(image.pixels);
+    }
+    for (int i = 0; i < count; i++)
+        if (expected.pixels[i].x > 0) {
+            bright++;
+            break;
+        }
+    free(expected.pixels);
+}
+
+static picture picture_of(const rt_scene *scene, const rt_camera *camera)
+{
+    picture p;
+    memset(&p, 0, sizeof p);
+    p.scene = *scene;
+    p.camera = *camera;
+    p.width = 16;
+    p.height = 12;
+    p.options.samples = 2;
+    p.options.bounces = 5;
+    return p;
+}
+
+static void test_which_lanes_there_are(void **state)
+{
+    (void)state;
+    const int most = rt_lane_count(0);
+    assert_true(most == 1 || most == 4 || most == 8 || most == 16);
+    for (int lanes = 4; lanes <= 16; lanes *= 2)
+        if (lanes > most)
+            print_message("note: no packets of %d rays here: not tested\n", lanes);
+    for (int wanted = 1; wanted < 40; wanted++) {
+        const int lanes = rt_lane_count(wanted);
+        assert_true(lanes == 1 || lanes == 4 || lanes == 8 || lanes == 16);
+        assert_true(lanes <= wanted && lanes <= most);
+        assert_true(2 * lanes > wanted || lanes == most || wanted < 4);
+    }
+    assert_int_equal(rt_lane_count(INT_MAX), most);
+}
+
+static void test_other_numbers_of_lanes_are_refused(void **state)
+{
+    (void)state;
+    const int bad[] = {-1, -4, 2, 3, 5, 6, 7, 9, 12, 15, 17, 32, 64, INT_MAX, INT_MIN};
+    rt_vec3 pixel = {7, 7, 7};
+    rt_image image = {.width = 1, .height = 1, .pixels = &pixel};
+    rt_options options = {.samples = 1};
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        options.lanes = bad[i];
+        assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image),
+                         RT_BAD_LANES);
+    }
+    for (int lanes = 4; lanes <= 16; lanes *= 2)
+        if (lanes > rt_lane_count(0)) {
+            options.lanes = lanes;
+            assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image),
+                             RT_BAD_LANES);
+        }
+    assert_vec(pixel, 7, 7, 7, 0);
+    assert_int_equal(image.samples, 0);
+}
+
+static void test_the_room(void **state)
+{
+    (void)state;
+    const int bounces[] = {0, 1, 5, 12};
+    const int before = bright;
+    for (size_t i = 0; i < COUNT(bounces); i++)
+        for (uint32_t seed = 0; seed < 3; seed++)
+            for (int kind = 0; kind < 2; kind++) {
+                picture p = picture_of(&scene_indirect, &room_camera);
+                p.width = 61;
+                p.height = 37;
+                p.options.bounces = bounces[i];
+                p.options.seed = seed;
+                p.options.sampler = kind == 0 ? RT_SOBOL : RT_RANDOM;
+                p.first = 1000 * (int)seed;
+                compare(&p, "scene_indirect, bounces", bounces[i]);
+                p.scene = scene_mirror;
+                compare(&p, "scene_mirror, bounces", bounces[i]);
+            }
+    assert_int_equal(bright - before, 48);
+}
+
+static int is_scene(const struct dirent *entry)
+{
+    const size_t length = strlen(entry->d_name);
+    return length > 5 && strcmp(entry->d_name + length - 5, ".json") == 0;
+}
+
+static void test_the_scenes_of_the_references(void **state)
+{
+    (void)state;
+    static scene_file file;
+    struct dirent **entries;
+    int compared = 0;
+    const int count = scandir("tests/references/scenes", &entries, is_scene, alphasort);
+    assert_true(count > 0);
+    for (int i = 0; i < count; i++) {
+        char path[300];
+        snprintf(path, sizeof path, "tests/references/scenes/%s", entries[i]->d_name);
+        if (!read_scene(path, &file))
+            fail_msg("%s: %s", path, file.error);
+        if (!file.mirror_direct) { /* that one has a function of its own: no packets */
+            picture p = picture_of(&file.scene, &file.camera);
+            p.width = file.width;
+            p.height = file.height;
+            p.options.bounces = file.bounces;
+            compare(&p, entries[i]->d_name, 0);
+            compared++;
+        }
+        free_scene(&file);
+        free(entries[i]);
+    }
+    free(entries);
+    assert_true(compared >= 6);
+}
+
+static void test_samples_and_threads_and_lanes_in_any_order(void **state)
+{
+    /* Some samples with these lanes, some with those, with and without half. */
+    (void)state;
+    for (int half = 0; half < 2; half++) {
+        rt_image whole = new_image(50, 41), pieces = new_image(50, 41);
+        if (half == 1) {
+            whole.half = new_image(50, 41).pixels;
+            pieces.half = new_image(50, 41).pixels;
+        }
+        rt_options options = {.samples = 10, .bounces = 4, .threads = 1, .lanes = 1};
+        assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &whole),
+                         RT_OK);
+        const int threads[] = {1, 2, 5};
+        for (int i = 0, lanes = 1; i < 10; i++) {
+            options.samples = 1;
+            options.threads = threads[i % 3];
+            options.lanes = lanes;
+            assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &pieces),
+                             RT_OK);
+            lanes = more_lanes(lanes) != 0 ? more_lanes(lanes) : 1;
+        }
+        assert_true(same_pixels(&whole, &pieces));
+        assert_int_equal(whole.rays, pieces.rays);
+        if (half == 1)
+            assert_memory_equal(whole.half, pieces.half, 50 * 41 * sizeof *whole.half);
+        free(whole.pixels);
+        free(whole.half);
+        free(pieces.pixels);
+        free(pieces.half);
+    }
+}
+
+static bool stop_at_call(void *user, float part)
+{
+    (void)part;
+    return --*(int *)user != 0;
+}
+
+static void test_cancelled_packets_go_on_to_the_same_bits(void **state)
+{
+    (void)state;
+    enum { W = 157, H = 111, N = 3 };
+    rt_image whole = new_image(W, H);
+    rt_options options = {.samples = N, .bounces = 3, .lanes = 1};
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &whole), RT_OK);
+    for (int lanes = more_lanes(1); lanes != 0; lanes = more_lanes(lanes)) {
+        rt_image image = new_image(W, H);
+        int within = 0;
+        for (int calls = 1; image.samples < N; calls++) {
+            int left = calls;
+            options.samples = N - image.samples;
+            options.threads = 1 + calls % 2;
+            options.lanes = lanes;
+            options.progress = stop_at_call;
+            options.user = &left;
+            const rt_status status =
+                rt_render(&scene_indirect, &room_camera, &options, &image);
+            assert_int_equal(status, image.samples < N ? RT_CANCELLED : RT_OK);
+            within += image.done > 0;
+        }
+        assert_true(within >= 1);
+        assert_true(same_pixels(&whole, &image));
+        assert_int_equal(whole.rays, image.rays);
+        free(image.pixels);
+    }
+    free(whole.pixels);
+}
+
+static void test_without_packets(void **state)
+{
+    /* This file, compiled with RT_NO_PACKETS by the compiler that CC names. */
+    (void)state;
+    char program[] = "/tmp/rt-no-packets-XXXXXX", command[500], said[100] = "", ours[100];
+    const char *cc = getenv("CC");
+    if (system("command -v ${CC:-cc} >/dev/null 2>&1") != 0) {
+        print_message("note: no C compiler (%s): RT_NO_PACKETS not tested\n",
+                      cc ? cc : "cc");
+        return;
+    }
+    const int file = mkstemp(program);
+    assert_true(file >= 0);
+    close(file);
+    snprintf(command, sizeof command,
+             "${CC:-cc} -std=c99 -O1 -ffp-contract=off -DRT_NO_PACKETS -o %s "
+             "tests/13_packets.c -lm 2>&1 && %s",
+             program, program);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    assert_non_null(fgets(said, sizeof said, pipe));
+    assert_int_equal(pclose(pipe), 0);
+    assert_int_equal(remove(program), 0);
+    snprintf(ours, sizeof ours, "%016llx\n", (unsigned long long)hash_of_the_room(0));
+    assert_string_equal(said, ours);
+    assert_true(hash_of_the_room(1) == hash_of_the_room(0));
+}
+
+/* ---- cases of which each was wrong once --------------------------------------------- */
+
+static rt_material grey(float albedo)
+{
+    const rt_material material = {{albedo, 0.8f * albedo, 0.6f * albedo}, false};
+    return material;
+}
+
+static void test_spheres_in_spheres(void **state)
+{
+    /* Copies and almost copies, seen from inside: the far root must not come out too large. */
+    (void)state;
+    const float centers[] = {4, 4, 4.000001f, 4}, radii[] = {13, 13, 13, 13.000001f};
+    for (int i = 0; i < 4; i++) {
+        const rt_sphere spheres[] = {{{4, 1, 4}, 13, grey(0.5f)},
+                                     {{centers[i], 1, 4}, radii[i], grey(0.9f)}};
+        const rt_light light = {{0.055f, 5e-6f, 2.5f}, {70, 70, 70}};
+        const rt_scene scene = {
+            .spheres = spheres, .sphere_count = 2, .lights = &light, .light_count = 1};
+        const rt_camera camera = {{4, 1, 3}, {9, -20, 2}, {0, 1, 0}, 90};
+        picture p = picture_of(&scene, &camera);
+        compare(&p, "spheres in spheres", i);
+        const rt_camera outside = {{40, 1, 3}, {-9, 0, 0.2f}, {0, 1, 0}, 50};
+        p.camera = outside;
+        compare(&p, "spheres in spheres, from outside", i);
+    }
+}
+
+static void test_a_small_sphere_inside_which_we_are(void **state)
+{
+    /* Its size is far below that of its coordinates; another one touches it. */
+    (void)state;
+    const rt_sphere spheres[] = {
+        {{-21.9236374f, 1.62970185f, -4.49607086f}, 0.25f, grey(0.5f)},
+        {{-25.7481995f, 2.79394579f, -5.93820667f}, 4, grey(0.9f)}};
+    const rt_scene scene = {
+        .spheres = spheres, .sphere_count = 2, .background = {0.3f, 0.6f, 0.4f}};
+    const rt_camera camera = {
+        {-22.0550442f, 1.62970185f, -4.49607086f}, {24, 0.2f, 5.6f}, {0, 1, 0}, 0};
+    picture p = picture_of(&scene, &camera);
+    p.options.samples = 20;
+    compare(&p, "in a small sphere", 0);
+}
+
+static void test_rays_in_the_plane_of_a_face(void **state)
+{
+    /* A box is closed: a ray along its face hits it. The picture has no width: all rays have
+     * the same direction, along an axis or in a plane, with components that are zero. */
+    (void)state;
+    const rt_box boxes[2] = {{{0, 0, -8}, {8, 4, -2}, grey(0.5f)},
+                             {{-3, 0, -5}, {0, 4, 1}, grey(0.7f)}};
+    const rt_light light = {{8, 9, 6}, {100, 100, 100}};
+    rt_scene scene = {.boxes = boxes, .box_count = 2, .lights = &light, .light_count = 1};
+    scene.background = rt_vec(0.5f, 0.25f, 0.125f);
+    const rt_camera cameras[] = {
+        {{8, 4, 10}, {0, 0, -1}, {0, 1, 0}, 0},  {{0, 2, 10}, {0, 0, -1}, {0, 1, 0}, 0},
+        {{8, 2, 10}, {0, 0, -1}, {0, 1, 0}, 0},  {{20, 4, -3}, {-1, 0, 0}, {0, 1, 0}, 0},
+        {{4, -9, -2}, {0, 1, 0}, {1, 0, 0}, 0},  {{-3, 9, -8}, {1, -1, 0}, {1, 0, 0}, 0},
+        {{8, 0, 10}, {-1, 0, -2}, {0, 1, 0}, 0}, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0},
+    };
+    const float angles[] = {1e-44f, 1e-35f, 1e-30f, 1e-20f, 1e-10f, 1e-3f};
+    for (size_t i = 0; i < COUNT(cameras); i++)
+        for (size_t k = 0; k < COUNT(angles); k++) {
+            picture p = picture_of(&scene, &cameras[i]);
+            p.width = 7;
+            p.height = 3;
+            p.camera.fov_y = angles[k];
+            compare(&p, "in the plane of a face", (int)(10 * i + k));
+        }
+}
+
+static void test_rays_almost_parallel_to_a_face(void **state)
+{
+    /* Components below 1e-29, of which packets have no inverse, and a camera so close to a
+     * face that the ray meets it soon all the same. */
+    (void)state;
+    const rt_sphere sphere = {{20, -10, -40}, 30, {{0.1f, 0.8f, 0.9f}, true}};
+    const rt_box box = {{0, -10, -40}, {20, 10, 20}, grey(0.5f)};
+    const rt_scene scene = {.spheres = &sphere,
+                            .sphere_count = 1,
+                            .boxes = &box,
+                            .box_count = 1,
+                            .background = {0.3f, 0.6f, 0.4f}};
+    const rt_camera cameras[] = {
+        {{1.4e-45f, 9.99999714f, -5.4f}, {0, 0, -1}, {0.81f, 0.37f, -0.45f}, 1e-30f},
+        {{1e-35f, -9.5f, 19}, {0, 0.5f, -1}, {0.1f, 0.4f, 0}, 1e-33f},
+        {{-1e-35f, -9.5f, 19}, {0, 0.5f, -1}, {0.1f, 0.4f, 0}, 1e-33f},
+    };
+    for (size_t i = 0; i < COUNT(cameras); i++) {
+        const picture p = picture_of(&scene, &cameras[i]);
+        compare(&p, "almost parallel to a face", (int)i);
+    }
+}
+
+static void test_spheres_smaller_than_the_step_off_them(void **state)
+{
+    /* rt_leave goes farther than through the whole sphere: the ray is outside, not inside. */
+    (void)state;
+    const rt_sphere sphere = {
+        {88087.6484f, -12.1278229f, 2.12936258f}, 0.0374866575f, grey(1)};
+    const rt_light light = {{1680, -260, 2841}, {4e7f, 4e7f, 4e7f}};
+    const rt_scene scene = {
+        .spheres = &sphere, .sphere_count = 1, .lights = &light, .light_count = 1};
+    const rt_camera camera = {sphere.center, {0, 0.04f, 0}, {1, 0, 0}, 90};
+    const picture p = picture_of(&scene, &camera);
+    const int before = bright;
+    compare(&p, "a sphere smaller than the step", 0);
+    assert_int_equal(bright, before + 1);
+}
+
+static void test_lights_on_the_surface(void **state)
+{
+    /* By rounding a little above it, or below: then chapter 4 finds the sphere in the way. */
+    (void)state;
+    rt_rng rng = rt_rng_start(0, 0, 65);
+    for (int i = 0; i < 60; i++) {
+        const rt_sphere sphere = {rt_vec(145, -3, 33), 5, grey(0.5f)};
+        const rt_vec3 n = random_direction(&rng), r = rt_scale(n, 5);
+        const rt_light light = {rt_add(sphere.center, r), {2, 2, 2}};
+        const rt_scene scene = {
+            .spheres = &sphere, .sphere_count = 1, .lights = &light, .light_count = 1};
+        const rt_camera camera = {
+            rt_add(sphere.center, rt_scale(n, 200)), rt_scale(n, -1), {0, 1, 0}, 1e-3f};
+        picture p = picture_of(&scene, &camera);
+        p.options.bounces = 0;
+        compare(&p, "light on the surface", i);
+    }
+}
+
+static void test_on_the_surface(void **state)
+{
+    /* The camera exactly on a sphere and on a box: t = 0 is no hit. With many spheres, too. */
+    (void)state;
+    rt_sphere spheres[30];
+    rt_rng rng = rt_rng_start(0, 0, 61);
+    for (int i = 0; i < 30; i++) {
+        spheres[i].center = random_point(&rng, 20);
+        spheres[i].radius = uniform(&rng, 1, 4);
+        spheres[i].material = grey(0.6f);
+    }
+    spheres[0].center = rt_vec(0, 0, 0);
+    spheres[0].radius = 5;
+    const rt_box box = {{3, -1, -1}, {5, 6, 7}, grey(0.4f)};
+    const rt_light light = {{0, 4, 0}, {50, 50, 50}};
+    for (int count = 1; count <= 30; count += 29)
+        for (int i = 0; i < 6; i++) {
+            const rt_scene scene = {.spheres = spheres,
+                                    .sphere_count = count,
+                                    .boxes = &box,
+                                    .box_count = i % 2,
+                                    .lights = &light,
+                                    .light_count = 1,
+                                    .background = {0.1f, 0.2f, 0.3f}};
+            const rt_vec3 places[] = {{5, 0, 0}, {0, -5, 0}, {3, 0, 4}};
+            const rt_camera camera = {places[i / 2], {-1, 0.5f, 0.25f}, {0, 1, 0}, 120};
+            const picture p = picture_of(&scene, &camera);
+            compare(&p, "on the surface", 10 * count + i);
+        }
+}
+
+static void test_a_ray_that_grazes_a_mirror(void **state)
+{
+    /* So closely that, by rounding, the reflected ray starts below the surface. */
+    (void)state;
+    const rt_sphere spheres[2] = {
+        {{2.33734298f, 2.05889654f, -4.97650719f}, 1.28531194f, {{1, 1, 1}, true}},
+        {{3.14526725f, 0.674847066f, -5.08293867f}, 1.60872149f, {{1, 1, 1}, true}}};
+    const rt_camera camera = {{0, 0, 0}, {0.3f, 0.2f, -1}, {0, 1, 0}, 1e-44f};
+    for (int i = 0; i < 2; i++) {
+        const rt_scene scene = {
+            .spheres = &spheres[i], .sphere_count = 1, .background = {0.3f, 0.6f, 0.4f}};
+        const rt_ray ray = rt_camera_ray(&camera, 1, 1, 0.5f, 0.5f);
+        rt_hit hit = untouched;
+        assert_true(rt_intersect(&scene, &ray, &hit));
+        assert_true(rt_dot(hit.normal, rt_reflect(ray.direction, hit.normal)) < 0);
+        for (int bounces = 0; bounces < 20; bounces++) {
+            picture p = picture_of(&scene, &camera);
+            p.options.bounces = bounces;
+            compare(&p, "grazing a mirror, bounces", bounces);
+        }
+    }
+}
+
+/* ---- random scenes, and odd ones ---------------------------------------------------- */
+
+enum { MOST = 120 };
+
+/* The shapes of a random scene; scale is the unit of length. */
+typedef struct odd_scene {
+    rt_sphere spheres[MOST];
+    rt_box boxes[MOST];
+    rt_light lights[3];
+    picture p;
+    float scale;
+    rt_rng *rng;
+} odd_scene;
+
+static int below(rt_rng *rng, int n)
+{
+    return (int)(rt_random(rng) * (float)n);
+}
+
+static bool chance(rt_rng *rng, float part)
+{
+    return rt_random(rng) < part;
+}
+
+/* Few values, so that shapes touch, coincide and line up; or any. */
+static float coordinate(odd_scene *s, int style)
+{
+    const float whole = (float)(below(s->rng, 11) - 5);
+    if (style == 0)
+        return s->scale * whole;
+    if (style == 1) /* a few roundings off */
+        return s->scale * whole * (1.0f + FLT_EPSILON * (float)(below(s->rng, 7) - 3));
+    return s->scale * uniform(s->rng, -6, 6);
+}
+
+static rt_vec3 place(odd_scene *s, int style)
+{
+    const float x = coordinate(s, style);
+    const float y = coordinate(s, style);
+    const float z = coordinate(s, style);
+    return rt_vec(x, y, z);
+}
+
+static float length_of(odd_scene *s, int style)
+{
+    if (style == 2)
+        return s->scale * uniform(s->rng, 0.1f, 4);
+    return s->scale * (float)(1 + below(s->rng, 4)) *
+           (style == 0 ? 1.0f : 1.0f + FLT_EPSILON * (float)(below(s->rng, 7) - 3));
+}
+
+static rt_material material(odd_scene *s)
+{
+    const float values[] = {0, 1, 0.5f, 1e-20f};
+    rt_material m;
+    m.albedo = random_colour(s->rng);
+    m.mirror = chance(s->rng, 0.3f);
+    if (chance(s->rng, 0.25f)) /* black, or a mirror that loses nothing */
+        m.albedo.x = m.albedo.y = m.albedo.z = values[below(s->rng, (int)COUNT(values))];
+    if (chance(s->rng, 0.1f))
+        m.albedo.y = 0;
+    return m;
+}
+
+static rt_sphere *sphere_at(odd_scene *s, rt_vec3 center, float radius)
+{
+    assert_true(s->p.scene.sphere_count < MOST);
+    rt_sphere *sphere = &s->spheres[s->p.scene.sphere_count++];
+    sphere->center = center;
+    sphere->radius = radius;
+    sphere->material = material(s);
+    return sphere;
+}
+
+static void box_between(odd_scene *s, rt_vec3 a, rt_vec3 b)
+{
+    assert_true(s->p.scene.box_count < MOST);
+    rt_box *box = &s->boxes[s->p.scene.box_count++];
+    box->min = rt__min(a, b);
+    box->max = rt__max(a, b);
+    box->material = material(s);
+}
+
+static void some_shapes(odd_scene *s, int spheres, int boxes, int style)
+{
+    for (int i = 0; i < spheres; i++)
+        sphere_at(s, place(s, style), length_of(s, style));
+    for (int i = 0; i < boxes; i++)
+        box_between(s, place(s, style), place(s, style));
+}
+
+enum { ROOM, NESTED, CHAIN, CLOSED, COPIES, SIZES, FAR, TREE, SOME, KINDS = SOME + 3 };
+
+static void odd_shapes(odd_scene *s, int kind)
+{
+    rt_rng *rng = s->rng;
+    const int style = below(rng, 3);
+    const float scale = s->scale;
+    rt_vec3 at = place(s, style);
+    float radius = length_of(s, style);
+    switch (kind) {
+    case ROOM: { /* walls of giants, some of them missing */
+        const float giant = scale * powf(10, uniform(rng, 1, 6)), half = 6 * scale;
+        for (int k = 0; k < 6; k++) {
+            const float x = k % 2 == 0 ? giant + half : -giant - half;
+            if (chance(rng, 0.8f))
+                sphere_at(
+                    s, rt_vec(k / 2 == 0 ? x : 0, k / 2 == 1 ? x : 0, k / 2 == 2 ? x : 0),
+                    giant);
+        }
+        some_shapes(s, below(rng, 4), below(rng, 3), style);
+        break;
+    }
+    case NESTED: /* one in the other, with the same centre, some of the same size */
+        for (int i = 1 + below(rng, 6); i > 0; i--) {
+            sphere_at(s, at, radius);
+            radius *= i % 3 == 0 ? 1.0f : i % 3 == 1 ? 1.0f + FLT_EPSILON : 1.5f;
+        }
+        break;
+    case CHAIN: /* each touches the one before */
+        for (int i = 2 + below(rng, 6); i > 0; i--) {
+            const rt_vec3 along =
+                chance(rng, 0.5f) ? rt_vec(0, 1, 0) : random_direction(rng);
+            const float next = length_of(s, style);
+            sphere_at(s, at, radius);
+            at = rt_add(at, rt_scale(along, radius + next));
+            radius = next;
+        }
+        some_shapes(s, 0, below(rng, 3), style);
+        break;
+    case CLOSED: /* in a sphere or a box */
+        if (chance(rng, 0.5f))
+            sphere_at(s, rt_scale(at, 0.1f), 20 * scale);
+        else
+            box_between(s, rt_vec(-20 * scale, -20 * scale, -20 * scale),
+                        rt_vec(20 * scale, 20 * scale, 20 * scale));
+        some_shapes(s, below(rng, 5), below(rng, 4), style);
+        break;
+    case COPIES: {
+        const rt_vec3 corner = place(s, style);
+        for (int i = 1 + below(rng, 20); i > 0; i--) {
+            if (chance(rng, 0.5f))
+                sphere_at(s, at, radius);
+            else
+                box_between(s, at, corner);
+            if (chance(rng, 0.2f))
+                radius *= 1.0f + FLT_EPSILON;
+        }
+        break;
+    }
+    case SIZES:
+        for (int i = 1 + below(rng, 12); i > 0; i--) {
+            const float size = scale * powf(10, uniform(rng, -3, 4));
+            const rt_vec3 p = rt_scale(random_direction(rng), size * uniform(rng, 0, 3));
+            if (chance(rng, 0.6f))
+                sphere_at(s, p, size);
+            else
+                box_between(s, p, rt_add(p, rt_scale(random_direction(rng), size)));
+        }
+        break;
+    case FAR: /* from the origin: few digits are left */
+        at = rt_scale(random_direction(rng), scale * powf(10, uniform(rng, 2, 6)));
+        some_shapes(s, 1 + below(rng, 4), below(rng, 4), style);
+        for (int i = 0; i < s->p.scene.sphere_count; i++)
+            s->spheres[i].center = rt_add(s->spheres[i].center, at);
+        for (int i = 0; i < s->p.scene.box_count; i++) {
+            s->boxes[i].min = rt_add(s->boxes[i].min, at);
+            s->boxes[i].max = rt_add(s->boxes[i].max, at);
+        }
+        break;
+    case TREE:
+        s->scale = 5 * scale;
+        some_shapes(s, 1 + below(rng, 60), below(rng, 60), style);
+        s->scale = scale;
+        break;
+    default: some_shapes(s, below(rng, 6), below(rng, 5), style); break;
+    }
+}
+
+/* Somewhere, or in, on or near a shape. */
+static rt_vec3 some_place(odd_scene *s)
+{
+    rt_rng *rng = s->rng;
+    const rt_scene *scene = &s->p.scene;
+    const int what = below(rng, 9);
+    if (what < 4 && scene->sphere_count > 0) {
+        const rt_sphere *sphere = &s->spheres[below(rng, scene->sphere_count)];
+        const rt_vec3 axes[] = {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
+        const rt_vec3 n = chance(rng, 0.5f) ? axes[below(rng, 3)] : random_direction(rng);
+        const float out = what == 0   ? 0.0f
+                          : what == 1 ? 1.0f
+                          : what == 2 ? rt_random(rng)
+                                      : 1.0f + powf(10, uniform(rng, -7, 0));
+        return rt_add(sphere->center, rt_scale(n, out * sphere->radius));
+    }
+    if (what < 7 && scene->box_count > 0) {
+        const rt_box *box = &s->boxes[below(rng, scene->box_count)];
+        const rt_vec3 part = random_colour(rng);
+        rt_vec3 p = rt_add(box->min, rt_mul(part, rt_sub(box->max, box->min)));
+        p.x = part.x < 0.4f ? box->min.x : p.x;
+        p.y = part.y < 0.4f ? box->max.y : p.y;
+        p.z = part.z < 0.4f ? box->min.z : p.z;
+        return p;
+    }
+    return place(s, below(rng, 3));
+}
+
+static void make_odd_scene(odd_scene *s, rt_rng *rng)
+{
+    const float scales[] = {1, 1, 1, 10, 100, 1e-3f, 1e3f, 1e6f, 1e7f, 1e8f};
+    const float angles[] = {0,  40, 90,    120,   170,    179,
+                            10, 1,  1e-3f, 1e-6f, 1e-35f, 1e-44f};
+    const int sizes[][2] = {{1, 1}, {7, 3}, {13, 5}, {8, 6}, {16, 3}, {3, 11}, {19, 1}};
+    const int bounces[] = {0, 1, 2, 5, 5, 12};
+    memset(s, 0, sizeof *s);
+    s->rng = rng;
+    s->scale = scales[below(rng, (int)COUNT(scales))];
+    picture *p = &s->p;
+    odd_shapes(s, below(rng, KINDS));
+    p->scene.spheres = s->spheres;
+    p->scene.boxes = s->boxes;
+    p->scene.lights = s->lights;
+    p->scene.light_count = chance(rng, 0.7f) ? 1 : below(rng, 4);
+    for (int i = 0; i < p->scene.light_count; i++) {
+        const float size = s->scale < 1e5f ? s->scale : 1e5f;
+        const float power = size * size * powf(10, uniform(rng, 0, 3));
+        s->lights[i].position = some_place(s);
+        s->lights[i].intensity = rt_vec(power, power, chance(rng, 0.1f) ? 0 : power);
+    }
+    if (chance(rng, 0.3f))
+        p->scene.background = random_colour(rng);
+    p->camera.position = some_place(s);
+    const rt_vec3 towards = chance(rng, 0.1f) ? s->lights[0].position : some_place(s);
+    const float x = (float)below(rng, 3);
+    p->camera.direction = chance(rng, 0.3f) ? rt_vec(x - 1, 0, x == 1 ? -1.0f : 0.0f)
+                                            : rt_sub(towards, p->camera.position);
+    if (chance(rng, 0.3f))
+        p->camera.up = random_direction(rng);
+    p->camera.fov_y = angles[below(rng, (int)COUNT(angles))];
+    const int size = below(rng, (int)COUNT(sizes));
+    p->width = sizes[size][0];
+    p->height = sizes[size][1];
+    p->options.samples = 1 + below(rng, 2);
+    p->options.bounces = bounces[below(rng, (int)COUNT(bounces))];
+    p->options.threads = 1;
+    p->options.seed = (uint32_t)below(rng, 1000);
+    p->options.sampler = chance(rng, 0.3f) ? RT_RANDOM : RT_SOBOL;
+    p->first = chance(rng, 0.3f) ? below(rng, 1000) : 0;
+}
+
+static void test_odd_scenes(void **state)
+{
+    (void)state;
+    static odd_scene s;
+    const int before = bright;
+    enum { SCENES = 2500 };
+    for (int i = 0; i < SCENES; i++) {
+        rt_rng rng = rt_rng_start((uint32_t)i, 0, 62);
+        make_odd_scene(&s, &rng);
+        compare(&s.p, "odd scene", i);
+    }
+    print_message("%d odd scenes, %d of them not black\n", SCENES, bright - before);
+    assert_true(bright - before > SCENES / 4);
+}
+
+static void test_random_scenes(void **state)
+{
+    (void)state;
+    const int before = bright;
+    rt_rng rng = rt_rng_start(0, 0, 63);
+    for (int i = 0; i < 150; i++) {
+        random_scene r;
+        make_random_scene(&r, &rng);
+        const rt_ray ray = random_ray(&rng);
+        const rt_camera camera = {ray.origin, ray.direction, {0, 1, 0}, 60};
+        picture p = picture_of(&r.scene, &camera);
+        p.options.seed = (uint32_t)i;
+        p.options.bounces = i % 7;
+        p.options.sampler = i % 2 == 0 ? RT_SOBOL : RT_RANDOM;
+        compare(&p, "random scene", i);
+    }
+    assert_true(bright - before > 100);
+}
+
+static void test_huge_scenes(void **state)
+{
+    /* Too large for the packets' floats: 1e9 to 1e14 and more. */
+    (void)state;
+    static odd_scene s;
+    for (int i = 0; i < 150; i++) {
+        rt_rng rng = rt_rng_start((uint32_t)i, 0, 64);
+        memset(&s, 0, sizeof s);
+        s.rng = &rng;
+        s.scale = powf(10, (float)(9 + i % 5));
+        odd_shapes(&s, CLOSED);
+        s.p.scene.spheres = s.spheres;
+        s.p.scene.boxes = s.boxes;
+        s.p.scene.lights = s.lights;
+        s.p.scene.light_count = 1;
+        s.p.scene.background = rt_vec(0.5f, 0.5f, 0.5f);
+        s.lights[0].position = some_place(&s);
+        s.lights[0].intensity = rt_vec(1e14f, 1e13f, 1e12f);
+        s.p.camera.position = some_place(&s);
+        s.p.camera.fov_y = 100;
+        s.p.width = 9;
+        s.p.height = 5;
+        s.p.options.samples = 1;
+        s.p.options.bounces = i % 4;
+        s.p.options.threads = 1;
+        compare(&s.p, "huge scene", i);
+    }
+}
+
+static void test_no_shapes(void **state)
+{
+    (void)state;
+    const rt_light light = {{0, 4, 0}, {50, 50, 50}};
+    const rt_scene scenes[] = {
+        {.background = {0.1f, 0.2f, 0.3f}},
+        {.lights = &light, .light_count = 1},
+        {.lights = &light, .light_count = 1, .background = {0.1f, 0.2f, 0.3f}},
+    };
+    for (int i = 0; i < 3; i++) {
+        const picture p = picture_of(&scenes[i], &room_camera);
+        compare(&p, "no shapes", i);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_which_lanes_there_are),
+        cmocka_unit_test(test_other_numbers_of_lanes_are_refused),
+        cmocka_unit_test(test_the_room),
+        cmocka_unit_test(test_the_scenes_of_the_references),
+        cmocka_unit_test(test_samples_and_threads_and_lanes_in_any_order),
+        cmocka_unit_test(test_cancelled_packets_go_on_to_the_same_bits),
+        cmocka_unit_test(test_without_packets),
+        cmocka_unit_test(test_spheres_in_spheres),
+        cmocka_unit_test(test_a_small_sphere_inside_which_we_are),
+        cmocka_unit_test(test_rays_in_the_plane_of_a_face),
+        cmocka_unit_test(test_rays_almost_parallel_to_a_face),
+        cmocka_unit_test(test_spheres_smaller_than_the_step_off_them),
+        cmocka_unit_test(test_on_the_surface),
+        cmocka_unit_test(test_lights_on_the_surface),
+        cmocka_unit_test(test_a_ray_that_grazes_a_mirror),
+        cmocka_unit_test(test_odd_scenes),
+        cmocka_unit_test(test_random_scenes),
+        cmocka_unit_test(test_huge_scenes),
+        cmocka_unit_test(test_no_shapes),
+    };
+    return cmocka_run_group_tests_name("packets", tests, NULL, NULL);
+}
+#endif
