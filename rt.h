@@ -1823,8 +1823,9 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
 
 typedef struct rt__job rt__job;
 
-/* One more sample for the pixels from first to last - 1; returns how many rays it took. */
-typedef uint64_t rt__step(const rt__job *job, int first, int last);
+/* Sample number sample for the pixels from first to last - 1; returns how many rays it
+ * took. */
+typedef uint64_t rt__step(const rt__job *job, int sample, int first, int last);
 
 struct rt__job {
     rt__step *step;
@@ -1839,15 +1840,14 @@ struct rt__job {
     bool by_tree; /* packets ask the tree, not all shapes */
 };
 
-/* Which numbers the next sample of the pixels takes: those of (sample, seed). */
-static inline uint32_t rt__sequence(const rt__job *job, uint32_t *seed)
+/* Which random numbers a sample takes: those of (the result, *seed). */
+static inline uint32_t rt__sequence(const rt__job *job, int sample, uint32_t *seed)
 {
-    const uint32_t sample = (uint32_t)job->image->samples;
     *seed = job->options.seed;
     if (job->options.sampler == RT_RANDOM || !job->image->half)
-        return sample;
-    *seed ^= sample << 31; /* two sequences in turn: see rt_image_error */
-    return sample >> 1;
+        return (uint32_t)sample;
+    *seed ^= (uint32_t)sample << 31; /* two sequences in turn: see rt_image_error */
+    return (uint32_t)sample >> 1;
 }
 
 /* The mean of n+1 values is the mean of n plus the (n+1)th part of the difference, so the
@@ -1860,27 +1860,28 @@ static inline void rt__add_to_mean(rt_vec3 *mean, int n, rt_vec3 value)
         *mean = rt_add(*mean, rt_scale(rt_sub(value, *mean), 1.0f / (float)(n + 1)));
 }
 
-static inline void rt__record(rt_image *image, int i, rt_vec3 value)
+static inline void rt__record(rt_image *image, int sample, int i, rt_vec3 value)
 {
-    rt__add_to_mean(&image->pixels[i], image->samples, value);
-    if (image->half && image->samples % 2 == 0)
-        rt__add_to_mean(&image->half[i], image->samples / 2, value);
+    rt__add_to_mean(&image->pixels[i], sample, value);
+    if (image->half && sample % 2 == 0)
+        rt__add_to_mean(&image->half[i], sample / 2, value);
 }
 
-static inline uint64_t rt__step_pixels(const rt__job *job, int first, int last)
+static inline uint64_t rt__step_pixels(const rt__job *job, int sample, int first,
+                                       int last)
 {
     const int width = job->image->width;
     uint64_t rays = 0;
     uint32_t seed;
-    const uint32_t sample = rt__sequence(job, &seed);
+    const uint32_t index = rt__sequence(job, sample, &seed);
     for (int i = first; i < last; i++) {
         rt_rng rng = job->options.sampler == RT_RANDOM
-                         ? rt_rng_start((uint32_t)i, sample, seed)
-                         : rt_sobol_start((uint32_t)i, sample, seed);
+                         ? rt_rng_start((uint32_t)i, index, seed)
+                         : rt_sobol_start((uint32_t)i, index, seed);
         const float dx = rt_random(&rng);
         const float dy = rt_random(&rng);
         const float x = (float)(i % width) + dx, y = (float)(i / width) + dy;
-        rt__record(job->image, i, job->pixel(job->context, x, y, &rng));
+        rt__record(job->image, sample, i, job->pixel(job->context, x, y, &rng));
         rays += rng.rays;
     }
     return rays;
@@ -1933,12 +1934,12 @@ static inline rt_status rt__check_job(const rt_image *image, const rt_options *o
 }
 
 /* One sample for every pixel, and again. The pixels are shared out among the threads in
- * bands, so that between two bands all threads rest and the caller can look at the
- * picture. In a band each thread takes the next chunk of pixels that nobody has
- * (schedule(dynamic)): a fixed share each would leave one waiting for the other. Every
- * pixel is written by one thread, and everything else that is written is declared inside
- * the loop: that is all it takes for "#pragma omp parallel for" to be right, and -fopenmp
- * for it to be obeyed.
+ * bands - a part of the picture, or several samples of a small one - so that between two
+ * bands all threads rest and the caller can look at the picture. In a band each thread
+ * takes the next chunk of pixels that nobody has (schedule(dynamic)): a fixed share each
+ * would leave one waiting for the other. Every pixel is written by one thread, and
+ * everything else that is written is declared inside the loop: that is all it takes for
+ * "#pragma omp parallel for" to be right, and -fopenmp for it to be obeyed.
  *
  * A band should last 20 to 60 ms: short enough for a window to answer, long enough not to
  * waste time on waiting for the slowest thread. */
@@ -1954,18 +1955,26 @@ static inline rt_status rt__run(const rt__job *job)
     const int target = image->samples + samples;
     const double begun = image->samples + (double)image->done / count;
     const double started = rt__seconds();
-    int band = 32 * chunk * threads, look = image->samples + 16;
+    int band = 32 * chunk * threads, look = (image->samples + 17) / 2 * 2;
     float part_of_error = 0.0f;
     while (image->samples < target) {
         const int first = image->done;
         const int last = count - first > band ? first + band : count;
         const double start = rt__seconds();
         uint64_t rays = 0;
+        int end = image->samples + 1;
+        if (first == 0 && last == count && band / count < target - image->samples)
+            end = image->samples + (band / count > 1 ? band / count : 1);
+        else if (first == 0 && last == count)
+            end = target;
+        if (o->error > 0.0f && end > look)
+            end = look;
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(+ : rays)
 #endif
         for (int i = first; i < last; i += chunk)
-            rays += job->step(job, i, last - i > chunk ? i + chunk : last);
+            for (int sample = image->samples; sample < end; sample++)
+                rays += job->step(job, sample, i, last - i > chunk ? i + chunk : last);
         const double now = rt__seconds();
         if (now - start < 0.02)
             band = band > INT_MAX / 2 ? INT_MAX : 2 * band;
@@ -1976,17 +1985,16 @@ static inline rt_status rt__run(const rt__job *job)
         image->done = last;
         if (last == count) {
             image->done = 0;
-            image->samples++;
+            image->samples = end;
         }
         /* The error: when the number of samples has grown by an eighth, and is even. */
-        if (o->error > 0.0f && image->done == 0 && image->samples >= look &&
-            image->samples % 2 == 0) {
+        if (o->error > 0.0f && image->done == 0 && image->samples == look) {
             const float error = rt_image_error(image);
             if (error <= o->error)
                 part_of_error = 1.0f;
             else
                 part_of_error = o->error / error * (o->error / error);
-            look = image->samples + image->samples / 8;
+            look = image->samples + 2 * (image->samples / 16 + 1);
         }
         const bool time_over = o->seconds > 0.0f && image->samples > 0 &&
                                now - started >= (double)o->seconds;
@@ -3293,12 +3301,12 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
 }
 
 /* rt__step_pixels with rt__pixel. */
-static uint64_t rt__step_packets(const rt__job *job, int first, int last)
+static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int last)
 {
     const int width = job->image->width;
     const rt__film *film = &job->film;
     uint32_t seed;
-    const uint32_t sample = rt__sequence(job, &seed);
+    const uint32_t index = rt__sequence(job, sample, &seed);
     const bool sobol = job->options.sampler == RT_SOBOL;
     const rt__u none = {0};
     const rt__m nowhere = ~(rt__m)none;
@@ -3322,9 +3330,9 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
         memcpy(&lanes, inside, sizeof lanes);
 
         rt__numbers numbers; /* rt_rng_start or rt_sobol_start */
-        numbers.key = rt__mix(pixel + rt_hash((sobol ? 0 : sample) + rt_hash(seed)));
+        numbers.key = rt__mix(pixel + rt_hash((sobol ? 0 : index) + rt_hash(seed)));
         numbers.dimension = none;
-        numbers.sample = none + rt__reverse(sample);
+        numbers.sample = none + rt__reverse(index);
         numbers.sobol = sobol;
         rt__draw(&numbers, &dx, &dy);
         numbers.dimension = none + 2u;
@@ -3346,7 +3354,7 @@ static uint64_t rt__step_packets(const rt__job *job, int first, int last)
         rt__aim(&r, rt__all(film->position), rt__vjoin(d), nowhere, nowhere);
         const rt__f3 value = rt__path(job, &r, lanes, &numbers, &rays);
         for (int lane = 0; lane < RT__LANES && i + lane < last; lane++)
-            rt__record(job->image, i + lane,
+            rt__record(job->image, sample, i + lane,
                        rt_vec(value.x[lane], value.y[lane], value.z[lane]));
     }
     uint64_t sum = 0;
