@@ -98,8 +98,9 @@
  *                 or a shape are a miss, never a crash. Sine and cosine are our own, so
  *                 that libm cannot change a path. How all this is tested:
  *                 docs/correctness.md.
- * ERRORS          rt_render, rt_render_pixels, rt_build_bvh and rt_check_... can fail. They
- *                 return an rt_status, and rt_status_text says in English what was wrong.
+ * ERRORS          rt_render, rt_render_pixels, rt_build_bvh and rt_check_... can fail.
+ *                 They return an rt_status, and rt_status_text says in English what was
+ *                 wrong.
  *
  * CONTENTS        0 vectors            rt_vec3, rt_dot, rt_normalize, rt_basis, rt_sincos
  *                 1 rays and spheres   rt_ray, rt_camera_ray, rt_hit_sphere
@@ -231,8 +232,9 @@ static inline rt_dvec3 rt_to_double(rt_vec3 v)
     return rt_dvec((double)v.x, (double)v.y, (double)v.z);
 }
 
-/* gcc 12 forgets to round in (double)(float)x where it makes vectors of x and y by itself.
- * An empty instruction that might change the float keeps it from looking through. */
+/* gcc 12 forgets to round in (double)(float)x where it makes vectors of x and y by
+ * itself. An empty instruction that might change the float keeps it from looking
+ * through. */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2_MATH__)
 #define RT__ROUND(x) __asm__("" : "+x"(x))
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__aarch64__)
@@ -478,8 +480,8 @@ static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
  * Returns false, and leaves *hit alone, on a miss; NaN or infinity anywhere, a direction
  * of length 0 and a radius that is not positive are misses.
  *
- * In double again; P is put back onto the sphere, O + R N, so that its error does not grow
- * with t. */
+ * In double again; P is put back onto the sphere, O + R N, so that its error does not
+ * grow with t. */
 static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
                                  rt_hit *hit)
 {
@@ -536,10 +538,10 @@ static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_m
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit); /* chapter 8 */
 
-/* The nearest hit of the ray in the scene: ask every shape for a t that is smaller than the
- * smallest so far, and the last one that had it for point and normal. Of two at exactly
- * the same distance the first wins, spheres before boxes. Returns false, and leaves *hit
- * alone, if there is none. */
+/* The nearest hit of the ray in the scene: ask every shape for a t that is smaller than
+ * the smallest so far, and the last one that had it for point and normal. Of two at
+ * exactly the same distance the first wins, spheres before boxes. Returns false, and
+ * leaves *hit alone, if there is none. */
 static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
 {
     if (scene->bvh)
@@ -622,10 +624,11 @@ static inline bool rt__cut(rt__slabs *slabs, int axis, float low, float high,
     return t_in <= t_out && slabs->t_in <= slabs->t_out; /* NaN: false */
 }
 
-/* Cut with all three slabs. A box is what they have in common, and so is the part of the ray
- * inside it: it begins at the largest of the three ways in and ends at the smallest of the
- * three ways out. If it ends before it begins, the ray passes by. Returns the first t with
- * 0 < t < t_max on the surface - the way in, or from inside the way out - or 0. */
+/* Cut with all three slabs. A box is what they have in common, and so is the part of
+ * the ray inside it: it begins at the largest of the three ways in and ends at the
+ * smallest of the three ways out. If it ends before it begins, the ray passes by.
+ * Returns the first t with 0 < t < t_max on the surface - the way in, or from inside
+ * the way out - or 0. */
 static inline float rt__cut_box(const rt_box *box, const rt_ray *ray, float t_max,
                                 rt__slabs *slabs)
 {
@@ -649,9 +652,9 @@ static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_m
 
 /* The first point of the box's surface on the ray with 0 < t < t_max.
  *
- * The normal is that of the plane through which the ray comes or, from inside, goes; on an
- * edge or corner x goes before y, y before z. The box is closed: a ray in the plane of a
- * face hits it. A flat box (min.y = max.y, say) is a rectangle.
+ * The normal is that of the plane through which the ray comes or, from inside, goes; on
+ * an edge or corner x goes before y, y before z. The box is closed: a ray in the plane
+ * of a face hits it. A flat box (min.y = max.y, say) is a rectangle.
  *
  * Returns false, and leaves *hit alone, on a miss; NaN, infinity and min > max are
  * misses.
@@ -941,9 +944,9 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
  * scenes", SIGGRAPH 1980.
  * ==================================================================================== */
 
-/* Up to eight boxes, and what is in each: a shape, or another node. Eight, and one array for
- * each coordinate, because that is what a core of today can look at in one go (see the
- * last section). */
+/* Up to eight boxes, and what is in each: a shape, or another node. Eight, and one
+ * array for each coordinate, because that is what a core of today can look at in one go
+ * (see the last section). */
 typedef struct rt_bvh_node {
     float min_x[8], min_y[8], min_z[8], max_x[8], max_y[8], max_z[8];
     int inside
@@ -1041,9 +1044,9 @@ static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray
 }
 
 /* What a ray on its way through the tree has yet to look at: a shape or a node (see
- * rt_bvh_node) and t, before which there is no hit in it, in one number, of which t is the
- * upper half: floats above 0 are in the same order as their bits. Never more than that at a
- * time; rt_build_bvh takes care of it. */
+ * rt_bvh_node) and t, before which there is no hit in it, in one number, of which t is
+ * the upper half: floats above 0 are in the same order as their bits. Never more than
+ * that at a time; rt_build_bvh takes care of it. */
 typedef uint64_t rt__item;
 #define RT__WAITING 256
 
@@ -1062,9 +1065,9 @@ static inline float rt__item_t(rt__item item)
     return t;
 }
 
-/* The number of the nearest shape that the ray meets before t_max, of the first of several
- * at the same t; or if any will do, of any; or -1. What is entered first is looked at
- * first, so that most of the rest turns out to be too far away. */
+/* The number of the nearest shape that the ray meets before t_max, of the first of
+ * several at the same t; or if any will do, of any; or -1. What is entered first is
+ * looked at first, so that most of the rest turns out to be too far away. */
 RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max, bool any,
                           rt__enter_function *enter)
 {
@@ -1175,13 +1178,13 @@ static inline uint32_t rt__second(uint32_t v)
     return v ^ (v >> 1 & 0x55555555u);
 }
 
-/* The numbers of one sample of one pixel, as rt_rng_start, for rt_random to hand out: each
- * of them, and each pair - the 1st with the 2nd, the 3rd with the 4th - fills its interval
- * or square evenly over the samples 0, 1, 2 ... of a pixel: of the first 2^k samples, one
- * falls into each of the 2^k equal parts, however the square is cut into rectangles of
- * halves of halves. Sobol's first two dimensions, scrambled by Owen's method (A. Owen,
- * 1997) with other keys for each pixel; each pair takes the samples in an order of its
- * own, lest all pairs do the same and the picture be wrong. */
+/* The numbers of one sample of one pixel, as rt_rng_start, for rt_random to hand out:
+ * each of them, and each pair - the 1st with the 2nd, the 3rd with the 4th - fills its
+ * interval or square evenly over the samples 0, 1, 2 ... of a pixel: of the first 2^k
+ * samples, one falls into each of the 2^k equal parts, however the square is cut into
+ * rectangles of halves of halves. Sobol's first two dimensions, scrambled by Owen's
+ * method (A. Owen, 1997) with other keys for each pixel; each pair takes the samples in
+ * an order of its own, lest all pairs do the same and the picture be wrong. */
 static inline rt_rng rt_sobol_start(uint32_t pixel, uint32_t sample, uint32_t seed)
 {
     rt_rng rng = rt_rng_start(pixel, 0, seed);
@@ -1240,8 +1243,8 @@ typedef struct rt_options {
     float error;        /* stop when rt_image_error is down to this; the image needs half;
                            0: never */
     float seconds;      /* stop after this time, with at least one sample; 0: never */
-    int lanes; /* rays that rt_render traces at a time: 1, as chapters 1 to 7 do, or 4, 8 or
-                  16 if the machine can; 0: as many as it can. The picture is the same. */
+    int lanes; /* rays that rt_render traces at a time: 1, as chapters 1 to 7 do, or 4, 8
+                  or 16 if the machine can; 0: as many as it can. The same picture. */
 } rt_options;
 
 /* How it went; rt_status_text says it in words. */
@@ -1303,9 +1306,11 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
 RTDEF float rt_image_error(const rt_image *image);
 
 /* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
- * set scene->bvh = bvh. When a shape or its material changes, build it anew. (A sphere smaller than a hundred-millionth of its distance may be
- * missed with the tree or hit without it: double does not tell.) Memory: 130 bytes are asked of RT_MALLOC for each shape, of which
- * some 80 are used, for rt_free_bvh to give back; and 28 more while it builds.
+ * set scene->bvh = bvh. When a shape or its material changes, build it anew. (A sphere
+ * smaller than a ten-millionth of its distance may be missed with the tree or hit
+ * without it: double does not tell.) Memory: 130 bytes are asked of RT_MALLOC for each
+ * shape, of which some 80 are used, for rt_free_bvh to give back; and 28 more while it
+ * builds.
  *
  * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
 RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
@@ -1313,18 +1318,20 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
 /* Give the memory back; *bvh is all zero afterwards. NULL or all zero: does nothing. */
 RTDEF void rt_free_bvh(rt_bvh *bvh);
 
-/* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15, radius
- * > 0, min <= max, albedo 0 to 1, intensity and background not negative, no count
- * negative, no array missing, bvh NULL or built for as many shapes. Otherwise what is wrong, and in *index, unless NULL, the
- * number of the offender in its array. rt_render asks it first. */
+/* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15,
+ * radius > 0, min <= max, albedo 0 to 1, intensity and background not negative, no
+ * count negative, no array missing, bvh NULL or built for as many shapes. Otherwise
+ * what is wrong, and in *index, unless NULL, the number of the offender in its array.
+ * rt_render asks it first. */
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index);
 
 /* RT_OK, or RT_BAD_CAMERA if a number is not finite or above 1e15, or fov_y not in [0,
  * 180). */
 RTDEF rt_status rt_check_camera(const rt_camera *camera);
 
-/* The number of threads that rt_render uses for options->threads = wanted; always 1 without
- * OpenMP. What rt_render refuses counts as the nearest that it takes, 1 or 1024. */
+/* The number of threads that rt_render uses for options->threads = wanted; always 1
+ * without OpenMP. What rt_render refuses counts as the nearest that it takes, 1 or
+ * 1024. */
 RTDEF int rt_thread_count(int wanted);
 
 /* How many rays rt_render traces at a time for options->lanes = wanted: 1, 4, 8 or 16, at
@@ -1479,7 +1486,7 @@ RTDEF int rt_thread_count(int wanted)
 #endif
 #endif
 
-/* ---- the tree of chapter 8 ---------------------------------------------------------- */
+/* ---- the tree of chapter 8 ------------------------------------------------------- */
 
 typedef struct rt__bounds {
     rt_vec3 min, max;
@@ -1578,11 +1585,11 @@ static inline int rt__bin(float middle, float low, float extent)
 
 /* Sort a group of shapes into two, and say how many are in the first.
  *
- * A ray enters a box in proportion to its surface, and then asks what is inside: the two
- * cost A_left n_left + A_right n_right. Of 15 cuts across the longest axis the cheapest is
- * taken: the surface area heuristic, in bins (I. Wald, "On fast construction of SAH-based
- * bounding volume hierarchies", 2007). A giant among small shapes is cut off by it at
- * once, and spoils only the boxes above. */
+ * A ray enters a box in proportion to its surface, and then asks what is inside: the
+ * two cost A_left n_left + A_right n_right. Of 15 cuts across the longest axis the
+ * cheapest is taken: the surface area heuristic, in bins (I. Wald, "On fast
+ * construction of SAH-based bounding volume hierarchies", 2007). A giant among small
+ * shapes is cut off by it at once, and spoils only the boxes above. */
 static inline int rt__split(const rt__bounds *bounds, int *order, int count)
 {
     rt__bounds middles = rt__no_bounds();
@@ -1679,8 +1686,9 @@ static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
     node->max_z[k] = b->max.z;
 }
 
-/* All nodes. Groups that wait to become nodes are on a stack. A tree that grows too deep - shapes at 1, 2, 4, 8 ... - is
- * cut in halves from some depth on: 20 + 31 / 3 levels, seven boxes waiting in each. */
+/* All nodes. Groups that wait to become nodes are on a stack. A tree that grows too
+ * deep - shapes at 1, 2, 4, 8 ... - is cut in halves from some depth on: 20 + 31 / 3
+ * levels, seven boxes waiting in each. */
 static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *order,
                                    int count)
 {
@@ -1744,9 +1752,9 @@ static inline rt__shape rt__shape_of(const rt_scene *scene, int number)
     return shape;
 }
 
-/* So many shapes packets ask one by one, without the tree; if their numbers are neither so
- * large that their squares are too much for float, nor so small that a ray which leaves
- * one, see rt_leave, is on the other side of it already. */
+/* So many shapes packets ask one by one, without the tree; if their numbers are neither
+ * so large that their squares are too much for float, nor so small that a ray which
+ * leaves one, see rt_leave, is on the other side of it already. */
 enum { RT__FEW = 64 };
 #define RT__MODERATE 1e7f
 
@@ -1789,9 +1797,9 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
         return RT_NO_MEMORY;
     const int count = scene->sphere_count + scene->box_count;
     const size_t n = (size_t)count + 1; /* at least one */
-    /* A node has eight boxes, or only shapes in them, two at least. So of L nodes with only
-     * shapes and I others, 7 I = L - 1 + (shapes in the others), and I + L is largest when
-     * L = n / 2: n / 2 + n / 14. */
+    /* A node has eight boxes, or only shapes in them, two at least. So of L nodes with
+     * only shapes and I others, 7 I = L - 1 + (shapes in the others), and I + L is
+     * largest when L = n / 2: n / 2 + n / 14. */
     const size_t nodes = n / 2 + n / 14 + 1;
     rt__bounds *bounds = (rt__bounds *)RT_MALLOC(n * sizeof *bounds);
     int *order = (int *)RT_MALLOC(n * sizeof *order);
@@ -1819,7 +1827,7 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     return good ? RT_OK : RT_NO_MEMORY;
 }
 
-/* ---- the loop over samples and pixels ----------------------------------------------- */
+/* ---- the loop over samples and pixels -------------------------------------------- */
 
 typedef struct rt__job rt__job;
 
@@ -2165,13 +2173,13 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
  * Packets: 4, 8 or 16 rays at a time
  *
  * A core of today adds 4, 8 or 16 floats with the one instruction that adds one (SSE2 and
- * NEON 4, AVX2 8, AVX-512 16). So here are chapters 1 to 7 once more, for packets of neighbouring
- * pixels: where they say float, this says rt__f, one float for each ray, its lane; a + b
- * adds lane by lane, a < b gives a mask with all bits set where it is true, and where
- * they say if, this says rt__select(mask, yes, no), because all lanes go the same way.
- * The vectors are those of gcc and clang; sqrt, min, max, select and conversions are the
- * machine's own. The file includes itself, as "rt.h", to come here once for each number
- * of lanes; all names get the number at their end.
+ * NEON 4, AVX2 8, AVX-512 16). So here are chapters 1 to 7 once more, for packets of
+ * neighbouring pixels: where they say float, this says rt__f, one float for each ray, its
+ * lane; a + b adds lane by lane, a < b gives a mask with all bits set where it is true,
+ * and where they say if, this says rt__select(mask, yes, no), because all lanes go the
+ * same way. The vectors are those of gcc and clang; sqrt, min, max, select, conversions
+ * are the machine's own. The file includes itself, as "rt.h", to come here once for each
+ * number of lanes; all names get the number at their end.
  *
  * Every lane computes the bits that chapters 1 to 7 would compute. For most of the code
  * that is plain: the same operations in the same order. The sphere is the exception: of
@@ -2283,7 +2291,7 @@ typedef struct rt__d3 {
     rt__d x, y, z;
 } rt__d3;
 
-/* ---- what is the machine's own ------------------------------------------------------ */
+/* ---- what is the machine's own --------------------------------------------------- */
 
 #if RT__LANES == 16 /* AVX-512 */
 RT__INLINE rt__f rt__fsqrt(rt__f v)
@@ -2524,7 +2532,7 @@ RT__INLINE void rt__gather(const rt__shape *shapes, const int32_t *places, rt__f
 }
 #endif
 
-/* ---- chapter 0 ---------------------------------------------------------------------- */
+/* ---- chapter 0 ------------------------------------------------------------------- */
 
 RT__INLINE rt__f rt__splat(float v)
 {
@@ -2631,7 +2639,7 @@ RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
     return rt__vec(rt__join(x), rt__join(y), rt__join(z));
 }
 
-/* ---- chapters 1 to 3: the nearest hit ----------------------------------------------- */
+/* ---- chapters 1 to 3: the nearest hit -------------------------------------------- */
 
 /* The rays of a packet. Those that leave a sphere carry with them which one: it is at t =
  * 0, within rounding, and that must not be taken for a hit. */
@@ -2735,9 +2743,9 @@ RT__INLINE void rt__offer(rt__nearest *n, rt__m may, rt__f low, rt__m at)
     n->at = (rt__m)rt__select(nearer, (rt__f)at, (rt__f)n->at);
 }
 
-/* Chapter 1: t = (-b -+ root) / a. Outside the sphere (c > 0) the smaller root is the one,
- * if the sphere is ahead (b < 0); inside the larger. When in doubt, the smaller one; and
- * of the root what makes t smaller: low may be too low, but not too high. */
+/* Chapter 1: t = (-b -+ root) / a. Outside the sphere (c > 0) the smaller root is the
+ * one, if the sphere is ahead (b < 0); inside the larger. When in doubt, the smaller
+ * one; and of the root what makes t smaller: low may be too low, but not too high. */
 RT__INLINE void rt__near_sphere(const rt__rays *r, rt__f less_over_a, rt__f slack,
                                 const rt__shape *shape, rt__m at, rt__nearest *n)
 {
@@ -2833,7 +2841,8 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, float low, float high, rt
                   ~(cuts->t_in <= cuts->t_out);
 }
 
-/* One coordinate of normal and point, if the ray comes or goes through a plane of this axis. */
+/* One coordinate of normal and point, if the ray comes or goes through a plane of this
+ * axis. */
 RT__INLINE void rt__face(rt__m here, rt__m inside, rt__f u, float low, float high,
                          rt__f *normal, rt__f *point)
 {
@@ -2917,7 +2926,8 @@ RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes
     hits->point = rt__vjoin(points);
     hits->normal = rt__vjoin(normals);
     hits->albedo = rt__vec(field[4], field[5], field[6]);
-    /* a sphere, surely the nearest, by the root that chapter 1 takes, and not too small */
+    /* a sphere, surely the nearest, by the root that chapter 1 takes, and not too small
+     */
     rt__m ask = lanes & ~(none | ((kind < 2.0f) & (t > 1e-30f) & (t < n->others) &
                                   (hits->normal.x == hits->normal.x)));
     if (rt__bits(ask) == 0)
@@ -2987,8 +2997,8 @@ RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
 #define rt__enter_lanes rt__enter_lanes8
 #endif
 
-/* rt_intersect and rt_occluded of a scene with a tree: rays that were scattered find their
- * way through it one by one, and look at eight boxes at a time. */
+/* rt_intersect and rt_occluded of a scene with a tree: rays that were scattered find
+ * their way through it one by one, and look at eight boxes at a time. */
 static __attribute__((noinline)) void
 rt__find_in_tree(const rt_scene *scene, const rt__rays *r, rt__m lanes, rt__hits *hits)
 {
@@ -3016,7 +3026,7 @@ static __attribute__((noinline)) rt__m rt__blocked_in_tree(const rt_scene *scene
     return lanes;
 }
 
-/* ---- chapter 4 ---------------------------------------------------------------------- */
+/* ---- chapter 4 ------------------------------------------------------------------- */
 
 /* What stands between the origins (t = 0) and the light (t = 1)? sure: that does; unsure:
  * that may. */
@@ -3115,7 +3125,8 @@ RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__f3 direction)
 }
 
 /* Rays that go on from where others hit. A reflection so flat that it goes through the
- * surface, or a way back to a light that is nearer than rt_leave's step, leaves nothing. */
+ * surface, or a way back to a light that is nearer than rt_leave's step, leaves
+ * nothing. */
 RT__INLINE void rt__depart(rt__rays *r, const rt__hits *hits, rt__f3 origin,
                            rt__f3 direction)
 {
@@ -3154,7 +3165,7 @@ RT__INLINE rt__f3 rt__light(const rt__job *job, rt__m lanes, const rt__hits *hit
     return sum;
 }
 
-/* ---- chapters 7 and 9: random numbers, directions ----------------------------------- */
+/* ---- chapters 7 and 9: random numbers, directions -------------------------------- */
 
 /* rt_hash, rt__reverse, rt__scramble */
 RT__INLINE rt__u rt__mix(rt__u v)
@@ -3252,10 +3263,10 @@ RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
                    rt__scale(n, rt__fsqrt(r2)));
 }
 
-/* ---- the whole path ----------------------------------------------------------------- */
+/* ---- the whole path -------------------------------------------------------------- */
 
-/* rt_radiance: *rays counts the rays of each lane. A lane whose path has ended stays until
- * the last one ends. */
+/* rt_radiance: *rays counts the rays of each lane. A lane whose path has ended stays
+ * until the last one ends. */
 RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
                            rt__numbers *numbers, rt__m *rays)
 {
