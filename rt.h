@@ -1888,7 +1888,8 @@ static inline uint64_t rt__step_pixels(const rt__job *job, int sample, int first
                          : rt_sobol_start((uint32_t)i, index, seed);
         const float dx = rt_random(&rng);
         const float dy = rt_random(&rng);
-        const float x = (float)(i % width) + dx, y = (float)(i / width) + dy;
+        const int column = i % width, row = i / width;
+        const float x = (float)column + dx, y = (float)row + dy;
         rt__record(job->image, sample, i, job->pixel(job->context, x, y, &rng));
         rays += rng.rays;
     }
@@ -1906,7 +1907,7 @@ RTDEF float rt_image_error(const rt_image *image)
         squares += (double)rt_dot(d, d);
         sum += (double)mean.x + (double)mean.y + (double)mean.z;
     }
-    const double even = (image->samples + 1) / 2, odd = image->samples / 2;
+    const int even = (image->samples + 1) / 2, odd = image->samples / 2;
     const double noise = sqrt(squares * even / odd / (3.0 * count));
     return sum > 0.0 ? (float)(noise / (sum / (3.0 * count))) : 0.0f;
 }
