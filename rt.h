@@ -1788,13 +1788,13 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     if (!scene || !bvh)
         return RT_BAD_POINTER;
     memset(bvh, 0, sizeof *bvh);
+    if (scene->sphere_count > 0 && scene->box_count > INT_MAX - scene->sphere_count)
+        return RT_NO_MEMORY; /* their numbers would not be ints */
     rt_scene shapes = *scene;
     shapes.bvh = NULL;
     const rt_status status = rt_check_scene(&shapes, NULL);
     if (status != RT_OK)
         return status;
-    if (scene->sphere_count > INT_MAX - scene->box_count)
-        return RT_NO_MEMORY;
     const int count = scene->sphere_count + scene->box_count;
     const size_t n = (size_t)count + 1; /* at least one */
     /* A node has eight boxes, or only shapes in them, two at least. So of L nodes with
@@ -1929,7 +1929,8 @@ static inline rt_status rt__check_job(const rt_image *image, const rt_options *o
     if (image->width < 1 || image->height < 1 || image->width > INT_MAX / image->height ||
         image->done < 0 || image->done >= image->width * image->height)
         return RT_BAD_SIZE;
-    if (o->samples < 0 || image->samples < 0 || o->samples > INT_MAX - image->samples)
+    if (o->samples < 0 || image->samples < 0 ||
+        (o->samples == 0 ? 16 : o->samples) > INT_MAX - image->samples)
         return RT_BAD_SAMPLES;
     if (o->threads < 0 || o->threads > 1024)
         return RT_BAD_THREADS;
@@ -1966,7 +1967,7 @@ static inline rt_status rt__run(const rt__job *job)
     const double started = rt__seconds();
     int band = 32 * chunk * threads, look = (image->samples + 17) / 2 * 2;
     float part_of_error = 0.0f;
-    while (image->samples < target) {
+    for (;;) {
         const int first = image->done;
         const int last = count - first > band ? first + band : count;
         const double start = rt__seconds();
@@ -2020,7 +2021,6 @@ static inline rt_status rt__run(const rt__job *job)
         if (o->progress && !o->progress(o->user, part < 1.0f ? part : 1.0f))
             return RT_CANCELLED;
     }
-    return RT_OK;
 }
 
 RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,

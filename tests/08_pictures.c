@@ -400,7 +400,8 @@ static void test_bad_options_are_refused(void **state)
     } cases[] = {
         {-1, 0, 0, 0, RT_BAD_SAMPLES},          {1, -1, 0, 0, RT_BAD_BOUNCES},
         {1, 0, -1, 0, RT_BAD_THREADS},          {1, 0, 1025, 0, RT_BAD_THREADS},
-        {2, 0, 0, INT_MAX - 1, RT_BAD_SAMPLES}, {1, 0, 0, -1, RT_BAD_SAMPLES},
+        {2, 0, 0, INT_MAX - 1, RT_BAD_SAMPLES}, {0, 0, 0, INT_MAX - 15, RT_BAD_SAMPLES},
+        {1, 0, 0, -1, RT_BAD_SAMPLES},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         rt_options options = defaults;

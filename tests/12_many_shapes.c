@@ -660,6 +660,9 @@ static void test_bad_scenes_make_no_tree(void **state)
     rt_bvh bvh;
     assert_int_equal(rt_build_bvh(NULL, &bvh), RT_BAD_POINTER);
     assert_int_equal(rt_build_bvh(&r.scene, NULL), RT_BAD_POINTER);
+    r.scene.sphere_count = INT_MAX; /* refused before anything is looked at */
+    assert_int_equal(rt_build_bvh(&r.scene, &bvh), RT_NO_MEMORY);
+    r.scene.sphere_count = (int)COUNT(r.spheres);
     const long before = allocated;
     for (size_t i = 0; i < COUNT(bad); i++) {
         float *const places[] = {&r.spheres[4].center.z, &r.spheres[0].radius,
