@@ -949,8 +949,7 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
  * (see the last section). */
 typedef struct rt_bvh_node {
     float min_x[8], min_y[8], min_z[8], max_x[8], max_y[8], max_z[8];
-    int inside
-        [8]; /* n: the shape with number n, spheres first, then boxes; -n: nodes[n] */
+    int inside[8]; /* n: shape number n, spheres first, then boxes; -n: nodes[n] */
     int count;
 } rt_bvh_node;
 
@@ -1523,12 +1522,10 @@ static inline double rt__area(const rt__bounds *b)
     return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-/* Twice the middle of the box along an axis. */
-static inline float rt__middle(const rt__bounds *b, int axis)
+/* Twice the middle of the box. */
+static inline rt_vec3 rt__middle(const rt__bounds *b)
 {
-    return axis == 0   ? b->min.x + b->max.x
-           : axis == 1 ? b->min.y + b->max.y
-                       : b->min.z + b->max.z;
+    return rt_add(b->min, b->max);
 }
 
 static inline float rt__component(rt_vec3 v, int axis)
@@ -1576,9 +1573,10 @@ static inline rt__bounds rt__bounds_of(const rt__bounds *bounds, const int *orde
 
 enum { RT__BINS = 16 };
 
-/* In which of the bins between low and low + extent a shape lies. */
-static inline int rt__bin(float middle, float low, float extent)
+/* In which of the bins between low and low + extent a shape lies, along an axis. */
+static inline int rt__bin(const rt__bounds *b, int axis, float low, float extent)
 {
+    const float middle = rt__component(rt__middle(b), axis);
     const int bin = (int)((float)RT__BINS * ((middle - low) / extent));
     return bin < 0 ? 0 : bin < RT__BINS ? bin : RT__BINS - 1;
 }
@@ -1594,9 +1592,8 @@ static inline int rt__split(const rt__bounds *bounds, int *order, int count)
 {
     rt__bounds middles = rt__no_bounds();
     for (int i = 0; i < count; i++) {
-        const rt__bounds *b = &bounds[order[i]];
         rt__bounds middle;
-        middle.min = middle.max = rt_add(b->min, b->max);
+        middle.min = middle.max = rt__middle(&bounds[order[i]]);
         rt__grow(&middles, &middle);
     }
     const rt_vec3 extents = rt_sub(middles.max, middles.min);
@@ -1610,12 +1607,11 @@ static inline int rt__split(const rt__bounds *bounds, int *order, int count)
 
     rt__bounds bins[RT__BINS], side = rt__no_bounds();
     int counts[RT__BINS] = {0}, n = 0, best = 1;
-    double costs[RT__BINS],
-        best_cost = DBL_MAX; /* costs[k]: of bin k and those after it */
+    double best_cost = DBL_MAX, costs[RT__BINS]; /* of a bin and those after it */
     for (int k = 0; k < RT__BINS; k++)
         bins[k] = rt__no_bounds();
     for (int i = 0; i < count; i++) {
-        const int k = rt__bin(rt__middle(&bounds[order[i]], axis), low, extent);
+        const int k = rt__bin(&bounds[order[i]], axis, low, extent);
         rt__grow(&bins[k], &bounds[order[i]]);
         counts[k]++;
     }
@@ -1638,7 +1634,7 @@ static inline int rt__split(const rt__bounds *bounds, int *order, int count)
     int left = 0;
     for (int i = 0; i < count; i++) {
         const int number = order[i];
-        if (rt__bin(rt__middle(&bounds[number], axis), low, extent) < best) {
+        if (rt__bin(&bounds[number], axis, low, extent) < best) {
             order[i] = order[left];
             order[left++] = number;
         }
@@ -1761,8 +1757,7 @@ enum { RT__FEW = 64 };
 static inline bool rt__are_few(const rt_scene *scene)
 {
     const float most = RT__MODERATE;
-    bool good = scene->sphere_count <= RT__FEW && scene->box_count <= RT__FEW &&
-                scene->sphere_count + scene->box_count <= RT__FEW;
+    bool good = scene->sphere_count + scene->box_count <= RT__FEW;
     for (int i = 0; good && i < scene->sphere_count; i++) {
         const rt_sphere *s = &scene->spheres[i];
         good = rt__within(s->center, -most, most) && s->radius <= most &&
@@ -1844,7 +1839,6 @@ struct rt__job {
     const void *context;
     const rt_scene *scene; /* what rt_render is about */
     rt__film film;
-    int bounces;
     bool by_tree; /* packets ask the tree, not all shapes */
 };
 
@@ -1972,11 +1966,8 @@ static inline rt_status rt__run(const rt__job *job)
         const int last = count - first > band ? first + band : count;
         const double start = rt__seconds();
         uint64_t rays = 0;
-        int end = image->samples + 1;
-        if (first == 0 && last == count && band / count < target - image->samples)
-            end = image->samples + (band / count > 1 ? band / count : 1);
-        else if (first == 0 && last == count)
-            end = target;
+        const int more = first == 0 && band > count ? band / count : 1;
+        int end = more < target - image->samples ? image->samples + more : target;
         if (o->error > 0.0f && end > look)
             end = look;
 #ifdef _OPENMP
@@ -2047,7 +2038,7 @@ static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *r
 {
     const rt__job *job = (const rt__job *)context;
     const rt_ray ray = rt__film_ray(&job->film, x, y);
-    return rt_radiance(job->scene, &ray, job->bounces, rng);
+    return rt_radiance(job->scene, &ray, job->options.bounces, rng);
 }
 
 #ifdef RT__PACKETS
@@ -2143,7 +2134,6 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     job.image = image;
     job.scene = &indexed;
     job.film = rt__film_of(camera, image->width, image->height);
-    job.bounces = job.options.bounces;
     job.step = rt__step_pixels;
     job.chunk = 32;
     job.pixel = rt__pixel;
@@ -2187,19 +2177,17 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
  * double, which it needs, only half as many fit, and most spheres are not hit. So all
  * shapes are asked in float first, with a bound for the error, which gives each a t that
  * is surely not too large. If the shape with the smallest, computed as chapter 1 does, in
- * double, is nearer than that of any other, it is the nearest. If not, the lane asks
- * chapters 1 to 3. Shadows likewise: yes, no, or in doubt ask. In the room, one lane in
- * some thousands asks.
+ * double, is nearer than that of any other, it is the nearest. If not, that ray goes
+ * alone through the tree of chapter 8, which asks chapters 1 to 3. Shadows likewise: yes,
+ * no, or in doubt alone. In the room, one ray in some thousands is in doubt.
  *
- * That is how the scene is asked if the shapes are few. If they are many, each ray goes
- * through the tree of chapter 8 by itself, and the lanes are the eight boxes of a node.
+ * That is how the scene is asked if the shapes are few. If they are many, all rays go
+ * through the tree alone, and the lanes are the eight boxes of a node.
  * ==================================================================================== */
 #ifdef RT__LANES
 
 #define RT__PASTE(name, lanes) name##lanes
 #define RT__NAME(name, lanes) RT__PASTE(name, lanes)
-#define rt__cuts RT__NAME(rt__cuts, RT__LANES)
-#define rt__cuts RT__NAME(rt__cuts, RT__LANES)
 #define rt__cuts RT__NAME(rt__cuts, RT__LANES)
 #define rt__d RT__NAME(rt__d, RT__LANES)
 #define rt__d3 RT__NAME(rt__d3, RT__LANES)
@@ -2216,8 +2204,6 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define rt__add RT__NAME(rt__add, RT__LANES)
 #define rt__aim RT__NAME(rt__aim, RT__LANES)
 #define rt__all RT__NAME(rt__all, RT__LANES)
-#define rt__ask RT__NAME(rt__ask, RT__LANES)
-#define rt__ask_shadow RT__NAME(rt__ask_shadow, RT__LANES)
 #define rt__backwards RT__NAME(rt__backwards, RT__LANES)
 #define rt__bits RT__NAME(rt__bits, RT__LANES)
 #define rt__blocked RT__NAME(rt__blocked, RT__LANES)
@@ -2800,22 +2786,66 @@ static inline void rt__set_lane(rt__hits *hits, int lane, const rt_hit *hit)
     hits->albedo.z[lane] = hit->material->albedo.z;
 }
 
-/* Chapters 1 to 3, one ray at a time, for the lanes that the packet is not sure of. */
-static __attribute__((noinline)) void rt__ask(const rt_scene *scene, const rt__rays *r,
-                                              rt__m lanes, const rt__nearest *n,
-                                              rt__hits *hits)
+#if RT__LANES <= 8
+/* rt__enter: now the lanes are the boxes of the node. */
+RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
+                                    rt_vec3 inverse, float t_max, float *t)
+{
+    unsigned result = 0;
+    for (int k = 0; k < 8; k += RT__LANES) {
+        rt__f3 min, max;
+        memcpy(&min.x, node->min_x + k, sizeof min.x);
+        memcpy(&min.y, node->min_y + k, sizeof min.y);
+        memcpy(&min.z, node->min_z + k, sizeof min.z);
+        memcpy(&max.x, node->max_x + k, sizeof max.x);
+        memcpy(&max.y, node->max_y + k, sizeof max.y);
+        memcpy(&max.z, node->max_z + k, sizeof max.z);
+        const rt__f3 low = rt__mul(rt__sub(min, rt__all(ray->origin)), rt__all(inverse));
+        const rt__f3 high = rt__mul(rt__sub(max, rt__all(ray->origin)), rt__all(inverse));
+        const rt__f t_in =
+            rt__fmax(rt__fmax(rt__fmin(low.x, high.x), rt__fmin(low.y, high.y)),
+                     rt__fmax(rt__fmin(low.z, high.z), rt__splat(0.0f)));
+        const rt__f t_out =
+            rt__fmin(rt__fmin(rt__fmax(low.x, high.x), rt__fmax(low.y, high.y)),
+                     rt__fmin(rt__fmax(low.z, high.z), rt__splat(t_max)));
+        const rt__f early = t_in * (1.0f - 4.0f * FLT_EPSILON);
+        memcpy(t + k, &early, sizeof early);
+        result |= (unsigned)rt__bits(early <= t_out) << k;
+    }
+    return result & ((1u << node->count) - 1u);
+}
+#else
+#undef rt__enter_lanes
+#define rt__enter_lanes rt__enter_lanes8
+#endif
+
+/* rt_intersect and rt_occluded, one ray after the other, each on its own way through the
+ * tree, and eight boxes at a time: for scenes with many shapes, and for lanes in doubt. */
+static __attribute__((noinline)) void
+rt__find_in_tree(const rt_scene *scene, const rt__rays *r, rt__m lanes, rt__hits *hits)
 {
     for (int lane = 0; lane < RT__LANES; lane++) {
         if (lanes[lane] >= 0)
             continue;
-        const rt_ray ray = rt__ray_of_lane(r, lane);
-        const int number = n->at[lane] / (int)sizeof(rt__shape);
-        rt_hit hit;
         hits->found[lane] = 0;
-        if ((rt__hit_shape(scene, number, &ray, &hit) && hit.t < n->others[lane]) ||
-            rt_intersect(scene, &ray, &hit))
+        const rt_ray ray = rt__ray_of_lane(r, lane);
+        const int number = rt__search(scene, &ray, FLT_MAX, false, rt__enter_lanes);
+        rt_hit hit;
+        if (number >= 0 && rt__hit_shape(scene, number, &ray, &hit))
             rt__set_lane(hits, lane, &hit);
     }
+}
+
+static __attribute__((noinline)) rt__m rt__blocked_in_tree(const rt_scene *scene,
+                                                           const rt__rays *r, rt__m lanes)
+{
+    for (int lane = 0; lane < RT__LANES; lane++)
+        if (lanes[lane] < 0) {
+            const rt_ray ray = rt__ray_of_lane(r, lane);
+            lanes[lane] =
+                rt__search(scene, &ray, 1.0f, true, rt__enter_lanes) >= 0 ? -1 : 0;
+        }
+    return lanes;
 }
 
 /* rt__slabs and rt__cut. */
@@ -2927,8 +2957,7 @@ RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes
     hits->point = rt__vjoin(points);
     hits->normal = rt__vjoin(normals);
     hits->albedo = rt__vec(field[4], field[5], field[6]);
-    /* a sphere, surely the nearest, by the root that chapter 1 takes, and not too small
-     */
+    /* a sphere, surely the nearest, by the root that chapter 1 takes, not too small */
     rt__m ask = lanes & ~(none | ((kind < 2.0f) & (t > 1e-30f) & (t < n->others) &
                                   (hits->normal.x == hits->normal.x)));
     if (rt__bits(ask) == 0)
@@ -2941,7 +2970,7 @@ RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes
             ask &= ~rt__finish_box(r, those, box, n->others, hits);
     }
     if (rt__bits(ask) != 0)
-        rt__ask(scene, r, ask, n, hits);
+        rt__find_in_tree(scene, r, ask, hits);
 }
 
 /* rt_intersect of a scene with few shapes: all rays ask one shape after the other. */
@@ -2963,68 +2992,6 @@ RT__INLINE void rt__find(const rt_scene *scene, const rt__rays *r, rt__m lanes,
     for (; shape < end; shape++, at += (int)sizeof *shape)
         rt__near_box(r, parallel, shape, at, &n);
     rt__finish(scene, r, lanes, &n, hits);
-}
-
-#if RT__LANES <= 8
-/* rt__enter: now the lanes are the boxes of the node. */
-RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
-                                    rt_vec3 inverse, float t_max, float *t)
-{
-    unsigned result = 0;
-    for (int k = 0; k < 8; k += RT__LANES) {
-        rt__f3 min, max;
-        memcpy(&min.x, node->min_x + k, sizeof min.x);
-        memcpy(&min.y, node->min_y + k, sizeof min.y);
-        memcpy(&min.z, node->min_z + k, sizeof min.z);
-        memcpy(&max.x, node->max_x + k, sizeof max.x);
-        memcpy(&max.y, node->max_y + k, sizeof max.y);
-        memcpy(&max.z, node->max_z + k, sizeof max.z);
-        const rt__f3 low = rt__mul(rt__sub(min, rt__all(ray->origin)), rt__all(inverse));
-        const rt__f3 high = rt__mul(rt__sub(max, rt__all(ray->origin)), rt__all(inverse));
-        const rt__f t_in =
-            rt__fmax(rt__fmax(rt__fmin(low.x, high.x), rt__fmin(low.y, high.y)),
-                     rt__fmax(rt__fmin(low.z, high.z), rt__splat(0.0f)));
-        const rt__f t_out =
-            rt__fmin(rt__fmin(rt__fmax(low.x, high.x), rt__fmax(low.y, high.y)),
-                     rt__fmin(rt__fmax(low.z, high.z), rt__splat(t_max)));
-        const rt__f early = t_in * (1.0f - 4.0f * FLT_EPSILON);
-        memcpy(t + k, &early, sizeof early);
-        result |= (unsigned)rt__bits(early <= t_out) << k;
-    }
-    return result & ((1u << node->count) - 1u);
-}
-#else
-#undef rt__enter_lanes
-#define rt__enter_lanes rt__enter_lanes8
-#endif
-
-/* rt_intersect and rt_occluded of a scene with a tree: rays that were scattered find
- * their way through it one by one, and look at eight boxes at a time. */
-static __attribute__((noinline)) void
-rt__find_in_tree(const rt_scene *scene, const rt__rays *r, rt__m lanes, rt__hits *hits)
-{
-    hits->found = lanes & ~lanes;
-    for (int lane = 0; lane < RT__LANES; lane++) {
-        if (lanes[lane] >= 0)
-            continue;
-        const rt_ray ray = rt__ray_of_lane(r, lane);
-        const int number = rt__search(scene, &ray, FLT_MAX, false, rt__enter_lanes);
-        rt_hit hit;
-        if (number >= 0 && rt__hit_shape(scene, number, &ray, &hit))
-            rt__set_lane(hits, lane, &hit);
-    }
-}
-
-static __attribute__((noinline)) rt__m rt__blocked_in_tree(const rt_scene *scene,
-                                                           const rt__rays *r, rt__m lanes)
-{
-    for (int lane = 0; lane < RT__LANES; lane++)
-        if (lanes[lane] < 0) {
-            const rt_ray ray = rt__ray_of_lane(r, lane);
-            lanes[lane] =
-                rt__search(scene, &ray, 1.0f, true, rt__enter_lanes) >= 0 ? -1 : 0;
-        }
-    return lanes;
 }
 
 /* ---- chapter 4 ------------------------------------------------------------------- */
@@ -3083,18 +3050,6 @@ RT__INLINE void rt__blocks_box(const rt__rays *r, rt__m parallel, const rt__shap
     shade->unsure |= doubt;
 }
 
-/* rt_occluded up to t = 1, for the lanes that the packet is not sure of. */
-static __attribute__((noinline)) rt__m rt__ask_shadow(const rt_scene *scene,
-                                                      const rt__rays *r, rt__m lanes)
-{
-    for (int lane = 0; lane < RT__LANES; lane++)
-        if (lanes[lane] < 0) {
-            const rt_ray ray = rt__ray_of_lane(r, lane);
-            lanes[lane] = rt_occluded(scene, &ray, 1.0f) ? -1 : 0;
-        }
-    return lanes;
-}
-
 /* rt_occluded up to t = 1, of a scene with few shapes. */
 RT__INLINE rt__m rt__blocked(const rt_scene *scene, const rt__rays *r, rt__m lanes)
 {
@@ -3111,7 +3066,7 @@ RT__INLINE rt__m rt__blocked(const rt_scene *scene, const rt__rays *r, rt__m lan
         rt__blocks_box(r, parallel, shape, &shade);
     const rt__m sure = shade.sure >> 31, unsure = lanes & (shade.unsure >> 31) & ~sure;
     if (rt__bits(unsure) != 0)
-        return sure | rt__ask_shadow(scene, r, unsure);
+        return sure | rt__blocked_in_tree(scene, r, unsure);
     return sure;
 }
 
@@ -3277,8 +3232,7 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
     for (int bounce = 0;; bounce++) {
         rt__hits hits;
         rt__f r1, r2;
-        rt__draw(numbers, &r1,
-                 &r2); /* early: the core can do it while it waits for a root */
+        rt__draw(numbers, &r1, &r2); /* early: while the core waits for roots */
         *rays -= lanes;
         if (job->by_tree)
             rt__find_in_tree(scene, r, lanes, &hits);
@@ -3293,7 +3247,7 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
         const rt__m diffuse = lanes & ~hits.mirror;
         const rt__f3 direct = rt__light(job, diffuse, &hits, rays);
         sum = rt__vselect(diffuse, rt__add(sum, rt__mul(throughput, direct)), sum);
-        if (bounce >= job->bounces || rt__bits(lanes) == 0)
+        if (bounce >= job->options.bounces || rt__bits(lanes) == 0)
             return sum;
 
         numbers->dimension += (rt__u)diffuse & 2u;
@@ -3376,8 +3330,6 @@ static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int 
 }
 
 #undef rt__cuts
-#undef rt__cuts
-#undef rt__cuts
 #undef rt__d
 #undef rt__d3
 #undef rt__f
@@ -3393,8 +3345,6 @@ static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int 
 #undef rt__add
 #undef rt__aim
 #undef rt__all
-#undef rt__ask
-#undef rt__ask_shadow
 #undef rt__backwards
 #undef rt__bits
 #undef rt__blocked
