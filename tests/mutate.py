@@ -11,7 +11,8 @@ fewer than 90 % are caught. Needs gcc, cmocka and cJSON."""
 import argparse, concurrent.futures, os, re, shutil, subprocess, sys, tempfile
 
 TESTS = ["00_vectors", "01_sphere", "02_walls", "03_cube", "04_shadows", "05_gamma", "06_mirror",
-         "07_monte_carlo", "08_pictures", "10_references"]
+         "07_monte_carlo", "08_pictures", "12_many_shapes", "13_packets", "14_less_noise",
+         "10_references"]
 SWAPS = [("<", "<="), ("<=", "<"), (">", ">="), (">=", ">"), ("==", "!="), ("!=", "=="),
          ("&&", "||"), ("||", "&&"), ("+", "-"), ("-", "+"), ("*", "/"), ("/", "*"),
          ("true", "false"), ("false", "true"), ("0.0f", "1.0f"), ("1.0f", "2.0f"),
@@ -21,12 +22,14 @@ HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def mutants(lines):
-    """(line number, changed line, chapter) for each swap in the functions of rt.h."""
+    """(line number, changed line, number of its test) for each swap in the functions of rt.h."""
     inside = comment = aside = False
-    chapter = 0
+    first = "00"
     for n, line in enumerate(lines):
-        m = re.search(r"Chapter (\d)\.", line)
-        chapter = int(m.group(1)) if m else 8 if "The machinery" in line else chapter
+        m = re.match(r" \* (Chapter \d|The machinery|Packets)", line)
+        if m:
+            first = {"Chapter 8": "12", "Chapter 9": "14", "The machinery": "08",
+                     "Packets": "13"}.get(m.group(1), "0" + m.group(1)[-1])
         text = re.sub(r"/\*.*?\*/", lambda m: " " * len(m.group()), line)
         if comment:
             comment = "*/" not in text
@@ -50,14 +53,14 @@ def mutants(lines):
             for m in re.finditer(pattern, text):
                 if old == "-" and text[m.end():m.end() + 1] == ">":
                     continue
-                if old == "*" and not (text[m.start() - 1] == " " and text[m.end()] == " "):
+                if old == "*" and text[m.start() - 1:m.end() + 1] not in (" * ", " *"):
                     continue                            # a pointer
-                yield n, line[:m.start()] + new + line[m.end():], chapter
+                yield n, line[:m.start()] + new + line[m.end():], first
 
 
 def run(job):
     """The name of the test that catches the mutant, "" if none, None if it does not compile."""
-    lines, (n, changed, chapter) = job
+    lines, (n, changed, first) = job
     folder = tempfile.mkdtemp()
     try:
         shutil.copytree(f"{HERE}/demos", f"{folder}/demos")
@@ -65,7 +68,7 @@ def run(job):
         os.symlink(f"{HERE}/tests/references", f"{folder}/tests/references")
         with open(f"{folder}/rt.h", "w") as f:
             f.write("\n".join(lines[:n] + [changed] + lines[n + 1:]))
-        order = sorted(TESTS, key=lambda t: (t[:2] != "%02d" % chapter, t == "10_references"))
+        order = sorted(TESTS, key=lambda t: (t[:2] != first, t == "10_references"))
         flags = subprocess.getoutput("pkg-config --cflags --libs cmocka libcjson").split()
         for test in order:
             built = subprocess.run(["gcc", "-std=c99", "-O1", "-ffp-contract=off", "-fopenmp", "-w",
