@@ -68,6 +68,8 @@
  *                 RT_STATIC          make those private to this file
  *                 RTDEF              or say yourself how they are declared
  *                 RT_NO_PACKETS      one ray at a time only: compiles sooner, runs slower
+ *                 RT_PACKETS         packets of rays also where the compiler does not
+ *                                    optimise (slow: for tests)
  *                 RT_MALLOC, RT_FREE in place of malloc and free
  *
  * CONVENTIONS     Right-handed world, y up; any unit of length in which no detail is
@@ -88,8 +90,9 @@
  *                 waiting for each other.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
  *                 of threads or lanes, nor on how samples are split over calls. For
- *                 the same bits on other machines and compilers pass -ffp-contract=off
- *                 (gcc contracts a*b+c by default); -ffast-math is refused.
+ *                 the same bits with all compilers, for all machines (-march=native),
+ *                 pass -ffp-contract=off: gcc contracts a*b+c where the machine can.
+ *                 -ffast-math is refused.
  * ROBUSTNESS      Spheres are intersected in double precision, so that walls of radius
  *                 1e5 work in a room of size 100: no wrong hit or miss in 1.8 million
  *                 rays, t within one rounding. Boxes in float, exact on planes, edges and
@@ -529,7 +532,8 @@ typedef struct rt_scene {
     const rt_light *lights;
     int light_count;
     rt_vec3 background; /* the light that comes from where nothing is hit; 0 is black */
-    const struct rt_bvh *bvh; /* for many shapes, see chapter 8; NULL: ask each of them */
+    const struct rt_bvh *bvh; /* for many shapes, see chapter 8; NULL: rt_intersect and
+                                 rt_occluded ask each of them */
 } rt_scene;
 
 static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
@@ -990,7 +994,7 @@ static inline void rt__trim(float low, float high, float origin, float inverse,
 /* Which of the node's boxes the ray meets with 0 < t < t_max: bit k of the result for box
  * k, and t[k], where it enters it. The slabs of chapter 3, with products in place of
  * quotients: it may say yes to a ray that misses by a rounding, but never no to one that
- * hits. Bound of the error, 2 gamma(3) = 6 roundings: pbrt, section 6.8.2. */
+ * hits. The error is below 6 roundings: pbrt, section 6.8.2. */
 static inline unsigned rt__enter(const rt_bvh_node *node, const rt_ray *ray,
                                  rt_vec3 inverse, float t_max, float *t)
 {
@@ -1044,9 +1048,10 @@ static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray
 
 /* What a ray on its way through the tree has yet to look at: a shape or a node (see
  * rt_bvh_node) and t, before which there is no hit in it, in one number, of which t is
- * the upper half: floats above 0 are in the same order as their bits. Never more than
- * that at a time; rt_build_bvh takes care of it. */
+ * the upper half: floats above 0 are in the same order as their bits. */
 typedef uint64_t rt__item;
+
+/* So many of them may wait, and never more do: rt_build_bvh takes care of it. */
 #define RT__WAITING 256
 
 static inline rt__item rt__make_item(float t, int inside)
@@ -1087,7 +1092,8 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
             first = item < first ? item : first;
         }
         if (count > before) {
-            /* the nearest comes last, what was last in place of the first UINT64_MAX */
+            /* waiting[before] is UINT64_MAX, for which there is no use: what was last goes
+             * there, and the nearest comes last, to be taken first */
             waiting[before] = waiting[count - 1];
             waiting[count - 1] = first;
         }
@@ -1213,10 +1219,12 @@ typedef struct rt_image {
     int width, height;
     rt_vec3 *pixels;
     int samples; /* how many samples every pixel has */
-    int done;    /* how many pixels, from the first on, have one more (after a cancel) */
+    int done;    /* how many pixels, from the first on, have one more (after a cancel, or
+                    when the time was over) */
     uint64_t rays; /* how many rays were traced for it, camera and shadow rays included */
     rt_vec3 *half; /* NULL, or as many vectors again, for the mean of every second sample:
-                      then the error can be estimated, see rt_image_error */
+                      then the error can be estimated, see rt_image_error. Not to be added
+                      or taken away while samples or done are above 0 */
 } rt_image;
 
 typedef enum rt_sampler {
@@ -1239,11 +1247,15 @@ typedef struct rt_options {
     void *user; /* handed to progress */
 
     rt_sampler sampler; /* where the numbers come from */
-    float error;        /* stop when rt_image_error is down to this; the image needs half;
-                           0: never */
-    float seconds;      /* stop after this time, with at least one sample; 0: never */
+    float error;        /* stop when rt_image_error is down to this, after 16 more samples
+                           and then whenever there are an eighth more; the image needs
+                           half; 0: never */
+    float seconds;      /* stop after this time, with at least one sample; 0: never. (The
+                           processor's time without OpenMP, if the C library is older than
+                           C11 or told to be) */
     int lanes; /* rays that rt_render traces at a time: 1, as chapters 1 to 7 do, or 4, 8
-                  or 16 if the machine can; 0: as many as it can. The same picture. */
+                  or 16 if rt_lane_count has them; 0: as many as it has. The same picture.
+                */
 } rt_options;
 
 /* How it went; rt_status_text says it in words. */
@@ -1299,8 +1311,8 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
  * the even samples, with mean A, and the odd ones are independent, each pixel of mean M
  * tells its variance: (A - M)^2 n_even / n_odd. One pixel tells little, thousands tell it
  * well. With image->half, rt_render keeps A there and takes even and odd samples from two
- * sequences of their own. (That costs a little: RT_SOBOL spreads two halves apart, not
- * the whole.) Error from too few bounces is not noise and not in it. 0 for a black image,
+ * sequences of their own. (That costs a little: with RT_SOBOL each half is even in
+ * itself, both together less so.) Error from too few bounces is not noise and not in it. 0 for a black image,
  * INFINITY, that is unknown, with less than 2 samples or without half. */
 RTDEF float rt_image_error(const rt_image *image);
 
@@ -1314,7 +1326,8 @@ RTDEF float rt_image_error(const rt_image *image);
  * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
 RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
 
-/* Give the memory back; *bvh is all zero afterwards. NULL or all zero: does nothing. */
+/* Give the memory back; *bvh is all zero afterwards, so set scene->bvh = NULL. NULL or all
+ * zero: does nothing. */
 RTDEF void rt_free_bvh(rt_bvh *bvh);
 
 /* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15,
@@ -1334,7 +1347,8 @@ RTDEF rt_status rt_check_camera(const rt_camera *camera);
 RTDEF int rt_thread_count(int wanted);
 
 /* How many rays rt_render traces at a time for options->lanes = wanted: 1, 4, 8 or 16, at
- * most what machine and compiler offer. (Packets are compiled by gcc and clang, with
+ * most what machine and compiler offer. What rt_render refuses counts as the nearest
+ * below that it takes, and negative as 0. (Packets are compiled by gcc and clang, with
  * optimisation, for x86 - 4 lanes with SSE2, 8 with AVX2 and FMA, 16 with AVX-512, found
  * out when the program runs - and for 64-bit ARM, 4 lanes.) */
 RTDEF int rt_lane_count(int wanted);
@@ -1385,8 +1399,8 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_ERROR: return "error must not be negative, and needs image->half";
     case RT_BAD_SECONDS: return "seconds must not be negative";
     case RT_BAD_LANES:
-        return "lanes must be 0, 1, 4, 8 or 16, and the machine must have them";
-    case RT_BAD_BVH: return "bvh: was built for another number of shapes";
+        return "lanes must be 0, 1, 4, 8 or 16, at most what rt_lane_count(0) says";
+    case RT_BAD_BVH: return "bvh: empty, freed, or built for another number of shapes";
     case RT_BAD_CAMERA: return "camera: numbers up to 1e15, and 0 <= fov_y < 180";
     case RT_BAD_SPHERE: return "sphere: numbers up to 1e15, radius > 0, albedo 0 to 1";
     case RT_BAD_BOX: return "box: numbers up to 1e15, min <= max, albedo 0 to 1";
@@ -1748,7 +1762,7 @@ static inline rt__shape rt__shape_of(const rt_scene *scene, int number)
     return shape;
 }
 
-/* So many shapes packets ask one by one, without the tree; if their numbers are neither
+/* Up to so many shapes packets ask one by one, without the tree; if their numbers are neither
  * so large that their squares are too much for float, nor so small that a ray which
  * leaves one, see rt_leave, is on the other side of it already. */
 enum { RT__FEW = 64 };
@@ -1911,6 +1925,10 @@ static inline double rt__seconds(void)
 {
 #ifdef _OPENMP
     return omp_get_wtime();
+#elif defined(TIME_UTC) /* C11, C++17 */
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 #else
     return (double)clock() / (double)CLOCKS_PER_SEC;
 #endif
@@ -2051,6 +2069,7 @@ static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *r
 #else
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
+#pragma GCC optimize("fp-contract=off") /* else only these would contract */
 #endif
 #define RT__LANES 8
 #include "rt.h"

@@ -122,7 +122,7 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
         {"--samples", 1, INT_MAX, &s->samples},
         {"--bounces", 0, INT_MAX, &s->bounces},
         {"--threads", 0, 1024, &s->threads},
-        {"--lanes", 1, 16, &s->lanes}, /* more about it below */
+        {"--lanes", 0, 16, &s->lanes}, /* more about it below */
         {"--seed", 0, UINT32_MAX, &s->seed},
     };
     const size_t number_count = sizeof numbers / sizeof numbers[0];
@@ -178,9 +178,9 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
         return false;
     }
     if (s->lanes > 0 && rt_lane_count((int)s->lanes) != s->lanes) {
-        fprintf(stderr,
-                "%s: --lanes: '%lld' is not 1, 4, 8 or 16; this machine has up to %d\n",
-                d->name, s->lanes, rt_lane_count(0));
+        fprintf(stderr, "%s: --lanes: '%lld' is not 1, 4, 8 or 16, at most %d here%s\n",
+                d->name, s->lanes, rt_lane_count(0),
+                rt_lane_count(0) == 1 ? " (was it compiled without -O?)" : "");
         return false;
     }
     const char *dot = strrchr(s->out, '.');
@@ -619,14 +619,14 @@ static void print_job(const run *r)
     const int threads = rt_thread_count((int)s->threads);
     printf("%s: %lld x %lld, ", r->d->name, s->width, s->height);
     if (s->samples == 0)
-        printf("samples");
+        printf("as many samples as it takes");
     else
         printf("%s%lld sample%s", s->error > 0.0f || s->seconds > 0.0f ? "at most " : "",
                s->samples, plural(s->samples));
     if (s->error > 0.0f)
-        printf(" until the error is %g %%", 100.0 * (double)s->error);
+        printf(", until the error is %g %%", 100.0 * (double)s->error);
     if (s->seconds > 0.0f)
-        printf(", %g s at most", (double)s->seconds);
+        printf(", for %g s at most", (double)s->seconds);
     printf(", %lld bounce%s, %d thread%s", s->bounces, plural(s->bounces), threads,
            plural(threads));
     if (r->d->render)

@@ -26,7 +26,7 @@ static void one_generator(void)
 
 /* Wrong: a variable from outside the loop is one for all threads. (And without "atomic", which
  * makes single accesses safe, C would not even promise that the program goes on.) */
-static int pixel;
+static volatile int pixel; /* volatile: do look, each time */
 static void one_variable(void)
 {
     int mine;
@@ -53,12 +53,11 @@ static void right_loop(void)
 
 static void measure(int threads)
 {
-    workers = threads;
     print_table((const loop[]){{"pragma on the inner loop", inner_loop},
                                {"one generator for all threads", one_generator},
                                {"one variable for all threads", one_variable},
                                {"right", right_loop}},
-                4);
+                4, threads);
 }
 
 static rt_status render(const rt_options *options, rt_image *image)

@@ -78,42 +78,49 @@ typedef struct loop {
     void (*run)(void); /* NULL: by_rt_render */
 } loop;
 
-/* One line: the time, the speed in proportion to that of the first, and whether the picture is
- * that of rt_render, bit for bit. */
-static void time_loop(loop l, const rt_vec3 *right, double *first)
+/* The time that the loop takes on so many threads, and its picture. */
+static double time_loop(loop l, int threads, rt_vec3 *picture)
 {
-    static rt_vec3 picture[COUNT];
+    workers = threads;
+    srand(1);
     const double start = demo_seconds();
     if (l.run)
         l.run();
     else
         by_rt_render(picture);
     const double took = demo_seconds() - start;
-    bool same = true;
-    for (int i = 0; i < COUNT; i++) {
+    for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < SAMPLES && l.run; k++) { /* the mean, summed as rt.h does */
             const rt_vec3 mean = k == 0 ? rt_vec(0, 0, 0) : picture[i];
             picture[i] =
                 rt_add(mean, rt_scale(rt_sub(value[i][k], mean), 1.0f / (float)(k + 1)));
         }
-        same = same && rt_is_zero(rt_sub(picture[i], right[i]));
-    }
-    *first = *first > 0.0 ? *first : took;
-    printf("%-32s %9.3f s %7.2f   %s\n", l.what, took, *first / took,
-           same ? "yes" : "no");
+    return took;
 }
 
-static void print_table(const loop *loops, int count)
+/* One line: the time on one thread and on all, how many times faster than the plain loop that
+ * is, and whether the two pictures are the same, bit for bit. */
+static void print_line(loop l, int threads, double plain)
 {
-    static rt_vec3 right[COUNT];
-    double first = 0.0;
-    by_rt_render(right);
-    printf("%d x %d, %d samples, %d thread%s       time   speed   same picture\n", WIDTH,
-           HEIGHT, SAMPLES, workers, workers == 1 ? " " : "s");
-    time_loop((loop){"without -fopenmp", without_openmp}, right, &first);
+    static rt_vec3 alone[COUNT], together[COUNT];
+    const double one = time_loop(l, 1, alone), all = time_loop(l, threads, together);
+    printf("%-30s %8.3f s %8.3f s %7.2f   %s\n", l.what, one, all, plain / all,
+           memcmp(alone, together, sizeof alone) == 0 ? "yes" : "no");
+}
+
+static void print_table(const loop *loops, int count, int threads)
+{
+    static rt_vec3 picture[COUNT];
+    const loop plain = {"without -fopenmp", without_openmp};
+    time_loop(plain, 1, picture); /* the first run is slower: memory is new */
+    const double start = time_loop(plain, 1, picture);
+    printf(
+        "%d x %d, %d samples            1 thread  %2d thread%s   speed   same picture\n",
+        WIDTH, HEIGHT, SAMPLES, threads, threads == 1 ? " " : "s");
+    print_line(plain, threads, start);
     for (int n = 0; n < count; n++)
-        time_loop(loops[n], right, &first);
-    time_loop((loop){"packets: rt_render", NULL}, right, &first);
+        print_line(loops[n], threads, start);
+    print_line((loop){"packets: rt_render", NULL}, threads, start);
 }
 
 #endif

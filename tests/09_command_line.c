@@ -100,12 +100,12 @@ static void test_error_ends_the_rendering(void **state)
     (void)state;
     int samples, more;
     double error;
-    expect(0, "40 x 30, samples until the error is 20 %, 5 bounces",
+    expect(0, "40 x 30, as many samples as it takes, until the error is 20 %, 5 bounces",
            "demo07 40 30 --error 0.2 --no-window --out e.png");
     read_result(&samples, &error);
     assert_in_range(samples, 16, 60);
     assert_true(error > 14.0 && error <= 20.0);
-    expect(0, "samples until the error is 5 %",
+    expect(0, "samples as it takes, until the error is 5 %",
            "demo07 40 30 --error .05 --no-window --out e.png");
     read_result(&more, &error);
     assert_in_range(more, 8 * samples, 32 * samples); /* 16 times as many, about */
@@ -117,7 +117,7 @@ static void test_error_ends_the_rendering(void **state)
     expect(0, "", "demo07 40 30 --error 1000. --no-window --out e.png");
     read_result(&samples, &error);
     assert_int_equal(samples, 16); /* fewer are not believed */
-    expect(0, "at most 20 samples until the error is 1 %",
+    expect(0, "at most 20 samples, until the error is 1 %",
            "demo07 40 30 --error 0.01 --samples 20 --no-window --out e.png");
     read_result(&samples, &error);
     assert_int_equal(samples, 20);
@@ -138,7 +138,7 @@ static void test_time_ends_the_rendering(void **state)
     (void)state;
     int samples;
     double error, took;
-    expect(0, "100 x 80, samples, 0.3 s at most, 5 bounces",
+    expect(0, "100 x 80, as many samples as it takes, for 0.3 s at most, 5 bounces",
            "demo07 100 80 --time 0.3 --no-window --out t.png");
     read_result(&samples, &error);
     assert_in_range(samples, 1, 100000);
@@ -147,7 +147,7 @@ static void test_time_ends_the_rendering(void **state)
     expect(0, "", "demo07 100 80 --time 0.000001 --no-window --out t.png");
     read_result(&samples, &error);
     assert_int_equal(samples, 1); /* one at least: a whole picture */
-    expect(0, "at most 2 samples, 600 s at most",
+    expect(0, "at most 2 samples, for 600 s at most",
            "demo07 40 30 --time 600 --samples 2 --no-window --out t.png");
     read_result(&samples, &error);
     assert_int_equal(samples, 2);
@@ -341,7 +341,7 @@ static void test_wrong_use(void **state)
         {"--sampler ''", "--sampler: ''"},
         {"--sampler Sobol", "--sampler: 'Sobol'"},
         {"--lanes", "--lanes: a number is missing"},
-        {"--lanes 0", "--lanes: '0'"},
+        {"--lanes -1", "--lanes: '-1'"},
         {"--lanes 2", "--lanes: '2' is not 1, 4, 8 or 16"},
         {"--lanes 12", "--lanes: '12'"},
         {"--lanes 17", "--lanes: '17'"},

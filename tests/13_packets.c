@@ -810,6 +810,16 @@ static void test_huge_scenes(void **state)
     }
 }
 
+/* Of what is only faster, nothing else would tell. */
+static void test_the_room_is_asked_shape_by_shape(void **state)
+{
+    (void)state;
+    rt_bvh bvh;
+    assert_int_equal(rt_build_bvh(&scene_indirect, &bvh), RT_OK);
+    assert_non_null(bvh.shapes);
+    rt_free_bvh(&bvh);
+}
+
 static void test_no_shapes(void **state)
 {
     (void)state;
@@ -847,6 +857,7 @@ int main(void)
         cmocka_unit_test(test_random_scenes),
         cmocka_unit_test(test_huge_scenes),
         cmocka_unit_test(test_no_shapes),
+        cmocka_unit_test(test_the_room_is_asked_shape_by_shape),
     };
     return cmocka_run_group_tests_name("packets", tests, NULL, NULL);
 }

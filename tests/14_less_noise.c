@@ -714,13 +714,14 @@ static void test_a_picture_that_was_out_of_time_goes_on_to_the_same_bits(void **
 
 typedef struct watch {
     int calls;
-    float last;
+    float before, last;
 } watch;
 
 static bool watch_progress(void *user, float part)
 {
     watch *w = user;
     assert_true(part >= w->last && part <= 1);
+    w->before = w->last;
     w->last = part;
     w->calls++;
     return true;
@@ -730,7 +731,7 @@ static void test_progress_ends_at_one_however_it_ends(void **state)
 {
     (void)state;
     for (int kind = 0; kind < 2; kind++) {
-        watch w = {0, 0};
+        watch w = {0, 0, 0};
         rt_options options = defaults;
         options.progress = watch_progress;
         options.user = &w;
@@ -741,8 +742,22 @@ static void test_progress_ends_at_one_however_it_ends(void **state)
         rt_image image = picture_of(&room, options, true);
         assert_close(w.last, 1, 0);
         assert_true(w.calls > 1);
+        assert_true(w.before > 0.3f); /* and it was on its way there */
         free_picture(&image);
     }
+}
+
+static void test_black_is_not_good_enough_if_no_error_is_wanted(void **state)
+{
+    (void)state;
+    rt_options options = defaults;
+    const rt_scene nothing = {0};
+    const subject black = {"black", &nothing, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 46},
+                           4,       3,        0};
+    options.samples = 100;
+    rt_image image = picture_of(&black, options, true);
+    assert_int_equal(image.samples, 100);
+    free_picture(&image);
 }
 
 /* ---- bad input ---------------------------------------------------------------------- */
@@ -841,6 +856,7 @@ int main(void)
         cmocka_unit_test(test_error_and_time_together),
         cmocka_unit_test(test_a_picture_that_was_out_of_time_goes_on_to_the_same_bits),
         cmocka_unit_test(test_progress_ends_at_one_however_it_ends),
+        cmocka_unit_test(test_black_is_not_good_enough_if_no_error_is_wanted),
         cmocka_unit_test(test_bad_samplers_errors_and_times_are_refused),
         cmocka_unit_test(test_demo_numbers_are_those_of_rt_random),
         cmocka_unit_test(test_demo_picture_is_that_of_rt_render),
