@@ -24,7 +24,7 @@ CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 export OMP_WAIT_POLICY ?= passive
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09
-HEADERS  = rt.h demos/demo.h demos/scene.h demos/loops.h demos/noise.h
+HEADERS  = rt.h demos/demo.h demos/scene.h demos/explain.h demos/loops.h demos/noise.h
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 .PHONY: help deps demos test golden check bench docs install clean $(DEMOS)

@@ -71,6 +71,7 @@
  *                 RT_PACKETS         packets of rays also where the compiler does not
  *                                    optimise (slow: for tests)
  *                 RT_MALLOC, RT_FREE in place of malloc and free
+ *                 rt_reflect ...     your own routine in place of that one: see below
  *
  * CONVENTIONS     Right-handed world, y up; any unit of length in which no detail is
  *                 smaller than 1e-4 (see rt_leave). Colours are linear RGB. Pixel (0,0)
@@ -328,6 +329,68 @@ static inline void rt_sincos(float turns, float *sine, float *cosine)
 }
 
 /* ====================================================================================
+ * Your own routines
+ *
+ * These are the functions that chapters 1 to 7 are about. You may write any of them
+ * yourself. Say so in one line before the include, and define yours after it:
+ *
+ *     #define rt_reflect my_reflect
+ *     #include "rt.h"
+ *
+ *     static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal)
+ *     {
+ *         ...
+ *     }
+ *
+ * Now rt_reflect means yours, here and in your program: the definition below is left out,
+ * what calls it calls yours, and rt_render traces one ray at a time, by the chapters. The
+ * lines #ifndef rt_reflect ... #endif around the definition are all there is to it. It
+ * counts for one file: rt_render is in the one with RT_IMPLEMENTATION.
+ * "make try FILE=my_reflect.c" tests yours, and shows the room by it.
+ * ==================================================================================== */
+
+struct rt_camera; /* all of them come in the chapters */
+struct rt_ray;
+struct rt_hit;
+struct rt_sphere;
+struct rt_box;
+struct rt_scene;
+struct rt_rng;
+
+static inline struct rt_ray rt_camera_ray(const struct rt_camera *camera, int width,
+                                          int height, float x, float y);
+static inline bool rt_hit_sphere(const struct rt_sphere *sphere, const struct rt_ray *ray,
+                                 float t_max, struct rt_hit *hit);
+static inline bool rt_intersect(const struct rt_scene *scene, const struct rt_ray *ray,
+                                struct rt_hit *hit);
+static inline rt_vec3 rt_lambert(rt_vec3 albedo, rt_vec3 normal, rt_vec3 to_light,
+                                 rt_vec3 intensity);
+static inline bool rt_hit_box(const struct rt_box *box, const struct rt_ray *ray,
+                              float t_max, struct rt_hit *hit);
+static inline rt_vec3 rt_leave(rt_vec3 point, rt_vec3 normal, rt_vec3 direction);
+static inline bool rt_occluded(const struct rt_scene *scene, const struct rt_ray *ray,
+                               float t_max);
+static inline bool rt_visible(const struct rt_scene *scene, rt_vec3 point, rt_vec3 normal,
+                              rt_vec3 light);
+static inline rt_vec3 rt_direct(const struct rt_scene *scene, const struct rt_hit *hit,
+                                struct rt_rng *rng);
+static inline unsigned char rt_encode(float value, double gamma);
+static inline rt_vec3 rt_reflect(rt_vec3 incident, rt_vec3 normal);
+static inline float rt_random(struct rt_rng *rng);
+static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2);
+static inline rt_vec3 rt_radiance(const struct rt_scene *scene,
+                                  const struct rt_ray *camera_ray, int bounces,
+                                  struct rt_rng *rng);
+
+#if defined(rt_camera_ray) || defined(rt_hit_sphere) || defined(rt_intersect) ||         \
+    defined(rt_lambert) || defined(rt_hit_box) || defined(rt_leave) ||                   \
+    defined(rt_occluded) || defined(rt_visible) || defined(rt_direct) ||                 \
+    defined(rt_reflect) || defined(rt_random) || defined(rt_sample_cosine) ||            \
+    defined(rt_radiance)
+#define RT__OWN /* no packets: they would not call it */
+#endif
+
+/* ====================================================================================
  * Chapter 1. Rays, the camera, spheres
  *
  * A ray is a half-line: the points C + t u with t > 0. Every question that a ray tracer
@@ -414,12 +477,14 @@ static inline rt_ray rt__film_ray(const rt__film *film, float x, float y)
  * direction, or not finite, some perpendicular takes its place. A width or height below
  * 1, an angle out of range or a direction that is not finite gives direction (0,0,0): a
  * ray that hits nothing. */
+#ifndef rt_camera_ray
 static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int height,
                                    float x, float y)
 {
     const rt__film film = rt__film_of(camera, width, height);
     return rt__film_ray(&film, x, y);
 }
+#endif
 
 /* What a surface does with light. It is explained in chapter 2 (albedo) and 6 (mirror);
  * the shapes carry one, so it is declared here. */
@@ -457,6 +522,7 @@ typedef struct rt_hit {
  * The formula is the textbook's, but in double: for a wall of radius 1e5, c is a small
  * difference of two numbers near 1e10, of which a float keeps seven digits: none is left.
  * All comparisons are so written that NaN is a miss. */
+#ifndef rt_hit_sphere
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
                                      float t_max)
 {
@@ -504,6 +570,14 @@ static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, flo
     hit->material = &sphere->material;
     return true;
 }
+#else /* by yours */
+static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
+                                     float t_max)
+{
+    rt_hit hit;
+    return rt_hit_sphere(sphere, ray, t_max, &hit) ? (double)hit.t : 0.0;
+}
+#endif
 
 /* ====================================================================================
  * Chapter 2. Scenes, the nearest hit, Lambert's law
@@ -536,9 +610,8 @@ typedef struct rt_scene {
                                  rt_occluded ask each of them */
 } rt_scene;
 
-static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
-                              rt_hit *hit); /* chapter 3 */
-static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_max);
+static inline float rt__meet_box(const rt_box *box, const rt_ray *ray,
+                                 float t_max); /* chapter 3 */
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit); /* chapter 8 */
 
@@ -546,6 +619,7 @@ static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
  * the smallest so far, and the last one that had it for point and normal. Of two at
  * exactly the same distance the first wins, spheres before boxes. Returns false, and
  * leaves *hit alone, if there is none. */
+#ifndef rt_intersect
 static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
 {
     if (scene->bvh)
@@ -571,6 +645,7 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
         return rt_hit_box(box, ray, FLT_MAX, hit);
     return sphere && rt_hit_sphere(sphere, ray, FLT_MAX, hit);
 }
+#endif
 
 /* Lambert's law: the radiance that a diffuse surface sends, in every direction alike,
  * when a point light of intensity I stands at P + to_light and nothing is in between,
@@ -582,6 +657,7 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
  * that sends radiance 1 in all directions sends pi W per m^2 in all, and must not send
  * more than it gets. A light behind the surface, or nearer than 1e-10 (I / d^2 must stay
  * a float), gives black. */
+#ifndef rt_lambert
 static inline rt_vec3 rt_lambert(rt_vec3 albedo, rt_vec3 normal, rt_vec3 to_light,
                                  rt_vec3 intensity)
 {
@@ -592,6 +668,7 @@ static inline rt_vec3 rt_lambert(rt_vec3 albedo, rt_vec3 normal, rt_vec3 to_ligh
     const float cosine = toward / sqrtf(dd);
     return rt_scale(rt_mul(albedo, intensity), cosine / (3.14159265359f * dd));
 }
+#endif
 
 /* ====================================================================================
  * Chapter 3. Boxes
@@ -648,12 +725,6 @@ static inline float rt__cut_box(const rt_box *box, const rt_ray *ray, float t_ma
     return t > 0.0f && t < t_max && t < FLT_MAX ? t : 0.0f; /* FLT_MAX: no plane */
 }
 
-static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_max)
-{
-    rt__slabs slabs;
-    return rt__cut_box(box, ray, t_max, &slabs);
-}
-
 /* The first point of the box's surface on the ray with 0 < t < t_max.
  *
  * The normal is that of the plane through which the ray comes or, from inside, goes; on
@@ -666,6 +737,7 @@ static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_m
  * Dividing by the direction, not multiplying by 1/u, and treating 0 apart keeps 0 . inf
  * away; float is enough here, since nothing is squared. Method: T. Kay, J. Kajiya, "Ray
  * tracing complex scenes", SIGGRAPH 1986. */
+#ifndef rt_hit_box
 static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
                               rt_hit *hit)
 {
@@ -698,6 +770,19 @@ static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
     return true;
 }
 
+static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_max)
+{
+    rt__slabs slabs;
+    return rt__cut_box(box, ray, t_max, &slabs);
+}
+#else /* by yours */
+static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_max)
+{
+    rt_hit hit;
+    return rt_hit_box(box, ray, t_max, &hit) ? hit.t : 0.0f;
+}
+#endif
+
 /* ====================================================================================
  * Chapter 4. Light and shadow
  * ==================================================================================== */
@@ -711,6 +796,7 @@ static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
  * the very surface that it leaves: the black dots called shadow acne. Skipping small t
  * instead does not help rays that leave flat, along the surface. In a room of 120 units
  * the offset is 1.1e-4 at most. */
+#ifndef rt_leave
 static inline rt_vec3 rt_leave(rt_vec3 point, rt_vec3 normal, rt_vec3 direction)
 {
     float size = 1.0f;
@@ -721,12 +807,14 @@ static inline rt_vec3 rt_leave(rt_vec3 point, rt_vec3 normal, rt_vec3 direction)
     return rt_add(point,
                   rt_scale(normal, rt_dot(normal, direction) < 0.0f ? -offset : offset));
 }
+#endif
 
 static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray,
                                     float t_max); /* chapter 8 */
 
 /* Is there anything on the ray with 0 < t < t_max? Any hit will do, so the search ends
  * with the first one found. */
+#ifndef rt_occluded
 static inline bool rt_occluded(const rt_scene *scene, const rt_ray *ray, float t_max)
 {
     if (scene->bvh)
@@ -739,10 +827,12 @@ static inline bool rt_occluded(const rt_scene *scene, const rt_ray *ray, float t
             return true;
     return false;
 }
+#endif
 
 /* Does the point S see the point P of a surface with normal N? A ray from P along S - P
  * has S at t = 1: what it meets before stands in between, what it meets later does not
  * count. A light exactly on a surface is seen or not as the rounding goes. */
+#ifndef rt_visible
 static inline bool rt_visible(const rt_scene *scene, rt_vec3 point, rt_vec3 normal,
                               rt_vec3 light)
 {
@@ -751,6 +841,7 @@ static inline bool rt_visible(const rt_scene *scene, rt_vec3 point, rt_vec3 norm
     shadow.direction = rt_sub(light, shadow.origin);
     return !rt_occluded(scene, &shadow, 1.0f);
 }
+#endif
 
 /* What one sample of one pixel carries along. The random numbers come in chapter 7; rays
  * are counted from here on. */
@@ -764,6 +855,7 @@ typedef struct rt_rng {
 
 /* Direct light: the sum of Lambert's law over the lights that the point sees. Shadow rays
  * are traced to the lights in front of the surface only, and counted in *rng. */
+#ifndef rt_direct
 static inline rt_vec3 rt_direct(const rt_scene *scene, const rt_hit *hit, rt_rng *rng)
 {
     rt_vec3 sum = rt_vec(0.0f, 0.0f, 0.0f);
@@ -779,6 +871,7 @@ static inline rt_vec3 rt_direct(const rt_scene *scene, const rt_hit *hit, rt_rng
     }
     return sum;
 }
+#endif
 
 /* ====================================================================================
  * Chapter 5. Pixels: from light to bytes
@@ -795,12 +888,14 @@ static inline rt_vec3 rt_direct(const rt_scene *scene, const rt_hit *hit, rt_rng
  * negative base has no power 1/2.2) and is so written that NaN becomes 0; infinity
  * becomes 255. In double, so that every libm gives the same byte: with gamma 2.2 no float
  * is so close to the middle of two bytes that it matters. */
+#ifndef rt_encode
 static inline unsigned char rt_encode(float value, double gamma)
 {
     const float clamped = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
     const double exponent = 1.0 / (gamma > 0.0 && gamma <= DBL_MAX ? gamma : 2.2);
     return (unsigned char)(255.0 * pow((double)clamped, exponent) + 0.5);
 }
+#endif
 
 /* ====================================================================================
  * Chapter 6. Mirrors
@@ -812,10 +907,12 @@ static inline unsigned char rt_encode(float value, double gamma)
  *     R = I - 2 <I,N> N.
  *
  * As long as I, and the same for N and -N. */
+#ifndef rt_reflect
 static inline rt_vec3 rt_reflect(rt_vec3 incident, rt_vec3 normal)
 {
     return rt_sub(incident, rt_scale(normal, 2.0f * rt_dot(incident, normal)));
 }
+#endif
 
 /* ====================================================================================
  * Chapter 7. Indirect light: random numbers, the hemisphere, radiance
@@ -853,6 +950,7 @@ static inline uint32_t rt__sobol(const rt_rng *rng); /* chapter 9 */
  * hemisphere could lie in the surface itself. Draw one number per statement: in
  * f(rt_random(r), rt_random(r)) the compiler chooses which of the two comes first, and
  * compilers differ. */
+#ifndef rt_random
 static inline float rt_random(rt_rng *rng)
 {
     const uint32_t bits =
@@ -860,6 +958,7 @@ static inline float rt_random(rt_rng *rng)
     rng->dimension++;
     return ((float)(bits >> 9) + 0.5f) * (1.0f / 8388608.0f);
 }
+#endif
 
 /* A direction on the side of the unit normal N, drawn with density <N,direction> / pi,
  * from two uniform numbers r1, r2 in (0, 1): in a basis with z along N,
@@ -868,6 +967,7 @@ static inline float rt_random(rt_rng *rng)
  *
  * That is a uniform point of the unit disc, lifted up onto the hemisphere (Malley's
  * method). Unit length within 3e-7. r2 = 0 gives a direction in the surface itself. */
+#ifndef rt_sample_cosine
 static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
 {
     float sine, cosine;
@@ -878,6 +978,7 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
     return rt_add(rt_add(rt_scale(a, cosine * radius), rt_scale(b, sine * radius)),
                   rt_scale(normal, sqrtf(r2)));
 }
+#endif
 
 /* The radiance that comes back along the ray: an estimate from one random path, whose
  * mean over many paths is right.
@@ -898,6 +999,7 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
  * the same stack. Random numbers and the count of rays come from *rng.
  *
  * J. Kajiya, "The rendering equation", SIGGRAPH 1986. */
+#ifndef rt_radiance
 static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ray,
                                   int bounces, rt_rng *rng)
 {
@@ -933,6 +1035,7 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
         ray.direction = direction;
     }
 }
+#endif
 
 /* ====================================================================================
  * Chapter 8. Many shapes
@@ -972,7 +1075,8 @@ typedef struct rt__shape {
 typedef struct rt_bvh {
     rt_bvh_node *nodes; /* nodes[0] is around everything */
     int node_count, sphere_count, box_count;
-    rt__shape *shapes; /* all of them, if they are few; or NULL */
+    rt__shape *shapes;    /* all of them, if they are few; or NULL */
+    struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
 /* 1/u, but finite for u = 0: so large that what is outside stays outside. */
@@ -1123,15 +1227,24 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
     }
 }
 
+static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
+                                       rt_hit *hit); /* at the end */
+static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
+                                      float t_max);
+
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit)
 {
+    if (scene->bvh->path)
+        return rt__intersect_noted(scene, ray, hit);
     const int number = rt__search(scene, ray, FLT_MAX, false, rt__enter);
     return number >= 0 && rt__hit_shape(scene, number, ray, hit);
 }
 
 static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, float t_max)
 {
+    if (scene->bvh->path)
+        return rt__occluded_noted(scene, ray, t_max);
     return rt__search(scene, ray, t_max, true, rt__enter) >= 0;
 }
 
@@ -1273,6 +1386,7 @@ typedef enum rt_status {
     RT_BAD_SECONDS,
     RT_BAD_LANES,
     RT_BAD_BVH,
+    RT_BAD_PIXEL,
     RT_BAD_CAMERA,
     RT_BAD_SPHERE,
     RT_BAD_BOX,
@@ -1316,6 +1430,53 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
  * INFINITY, that is unknown, with less than 2 samples or without half. */
 RTDEF float rt_image_error(const rt_image *image);
 
+/* One point of a path: the ray that was followed, and what it met. */
+typedef struct rt_vertex {
+    rt_ray ray;
+    int shape;  /* which it met: spheres first, then boxes; -1: none, background */
+    rt_hit hit; /* all zero if none */
+    rt_vec3 throughput; /* how much of the light from here arrives at the camera */
+    rt_vec3 light;      /* direct light here, or background; black on a mirror. It adds
+                           throughput . light to the value of the sample */
+} rt_vertex;
+
+/* A question from one point of a path: does it see this light? */
+typedef struct rt_shadow {
+    int vertex, light; /* their numbers */
+    rt_ray ray;        /* from the point, to the light at t = 1 */
+    float cosine, dd;  /* <N,L> and d^2 */
+    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen */
+    float t;
+    rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
+} rt_shadow;
+
+/* All that happened to one sample of a pixel. The arrays are yours; say how long they are.
+ * What has no place in them is left out, but counted. There is at most one vertex more
+ * than bounces, and for each as many shadows as there are lights. */
+typedef struct rt_path {
+    rt_vertex *vertices;
+    int max_vertices, vertex_count;
+    rt_shadow *shadows;
+    int max_shadows, shadow_count;
+    rt_vec3 value; /* of the sample: the sum of throughput . light over the vertices */
+    uint32_t rays; /* how many it took */
+    const rt_scene *scene; /* while it is traced */
+} rt_path;
+
+/* Follow one sample of the pixel (x, y) of the image once more, and write it down:
+ * path->value is, to the bit, what rt_render with the same arguments adds to the pixel for
+ * this sample. Samples count from 0. The image is not changed; of it only the size counts,
+ * and whether it has a half.
+ *
+ * What is written down are the questions that rt_radiance asks of the scene, by
+ * rt_intersect and rt_occluded - or a routine of yours in their place, as long as it asks
+ * by these two. So nothing is slower where nobody looks.
+ *
+ * What rt_render says about bad arguments, or RT_BAD_PIXEL; *path is then untouched. */
+RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
+                               const rt_options *options, const rt_image *image, int x,
+                               int y, int sample, rt_path *path);
+
 /* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
  * set scene->bvh = bvh. When a shape or its material changes, build it anew. (A sphere
  * smaller than a ten-millionth of its distance may be missed with the tree or hit
@@ -1355,6 +1516,91 @@ RTDEF int rt_lane_count(int wanted);
 
 /* What a status means, in English, without a full stop. Never NULL. */
 RTDEF const char *rt_status_text(rt_status status);
+
+/* ---- for rt_trace_pixel ---------------------------------------------------------- */
+
+/* The number of the shape that has this material. */
+static inline int rt__shape_number(const rt_scene *scene, const rt_material *material)
+{
+    for (int i = 0; i < scene->sphere_count; i++)
+        if (&scene->spheres[i].material == material)
+            return i;
+    for (int i = 0; i < scene->box_count; i++)
+        if (&scene->boxes[i].material == material)
+            return scene->sphere_count + i;
+    return -1;
+}
+
+/* The part of the light that arrives by way of this point, as in rt_radiance. */
+static inline rt_vec3 rt__throughput(const rt_vertex *v)
+{
+    const rt_material *material = v->hit.material;
+    if (!material || (material->mirror && rt_is_zero(material->albedo)))
+        return v->throughput;
+    return rt_mul(v->throughput, material->albedo);
+}
+
+static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
+                                       rt_hit *hit)
+{
+    rt_path *path = scene->bvh->path;
+    const bool found = rt_intersect(path->scene, ray, hit);
+    const int n = path->vertex_count++;
+    if (n < path->max_vertices) {
+        rt_vertex *v = &path->vertices[n];
+        memset(v, 0, sizeof *v);
+        v->ray = *ray;
+        v->throughput = n == 0 ? rt_vec(1.0f, 1.0f, 1.0f) : rt__throughput(v - 1);
+        v->shape = -1;
+        if (found) {
+            v->hit = *hit;
+            v->shape = rt__shape_number(scene, hit->material);
+        } else {
+            v->light = scene->background;
+        }
+    }
+    return found;
+}
+
+static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
+                                      float t_max)
+{
+    rt_path *path = scene->bvh->path;
+    const bool blocked = rt_occluded(path->scene, ray, t_max);
+    const int n = path->shadow_count++, vertex = path->vertex_count - 1;
+    if (n >= path->max_shadows || vertex < 0 || vertex >= path->max_vertices)
+        return blocked;
+    rt_shadow *s = &path->shadows[n];
+    rt_vertex *v = &path->vertices[vertex];
+    memset(s, 0, sizeof *s);
+    s->vertex = vertex;
+    s->ray = *ray;
+    s->blocker = -1;
+    /* which light? the one at the end of the ray */
+    const rt_vec3 end = rt_at(ray, 1.0f);
+    float nearest = FLT_MAX;
+    for (int i = 0; i < scene->light_count; i++) {
+        const float distance = rt_length(rt_sub(scene->lights[i].position, end));
+        if (distance < nearest) {
+            nearest = distance;
+            s->light = i;
+        }
+    }
+    const rt_light *light = &scene->lights[s->light];
+    const rt_vec3 to_light = rt_sub(light->position, v->hit.point);
+    s->dd = rt_dot(to_light, to_light);
+    s->cosine = rt_dot(v->hit.normal, to_light) / sqrtf(s->dd);
+    rt_hit between;
+    if (!blocked) {
+        s->light_sent = rt_lambert(v->hit.material->albedo, v->hit.normal, to_light,
+                                   light->intensity);
+        v->light = rt_add(v->light, s->light_sent);
+    } else if (rt_intersect(path->scene, ray, &between)) {
+        s->blocker = rt__shape_number(scene, between.material);
+        s->t = between.t;
+    }
+    return blocked;
+}
 
 #ifdef __clang__
 #pragma STDC FP_CONTRACT DEFAULT
@@ -1401,6 +1647,7 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_LANES:
         return "lanes must be 0, 1, 4, 8 or 16, at most what rt_lane_count(0) says";
     case RT_BAD_BVH: return "bvh: empty, freed, or built for another number of shapes";
+    case RT_BAD_PIXEL: return "pixel: x and y in the image, sample not negative";
     case RT_BAD_CAMERA: return "camera: numbers up to 1e15, and 0 <= fov_y < 180";
     case RT_BAD_SPHERE: return "sphere: numbers up to 1e15, radius > 0, albedo 0 to 1";
     case RT_BAD_BOX: return "box: numbers up to 1e15, min <= max, albedo 0 to 1";
@@ -1487,7 +1734,7 @@ RTDEF int rt_thread_count(int wanted)
 /* Can rays be traced in packets? See the last section. Not where the compiler does not
  * optimise: there they would take longer. RT_NO_PACKETS leaves them out, RT_PACKETS takes
  * them in all the same. */
-#if defined(__GNUC__) && !defined(RT_NO_PACKETS) &&                                      \
+#if defined(__GNUC__) && !defined(RT_NO_PACKETS) && !defined(RT__OWN) &&                 \
     (defined(__OPTIMIZE__) || defined(RT_PACKETS))
 #ifdef __SSE2_MATH__
 #define RT__PACKETS
@@ -1852,6 +2099,7 @@ struct rt__job {
     rt_pixel_function *pixel; /* rt__step_pixels calls it with context */
     const void *context;
     const rt_scene *scene; /* what rt_render is about */
+    const rt_camera *camera;
     rt__film film;
     bool by_tree; /* packets ask the tree, not all shapes */
 };
@@ -1883,22 +2131,31 @@ static inline void rt__record(rt_image *image, int sample, int i, rt_vec3 value)
         rt__add_to_mean(&image->half[i], sample / 2, value);
 }
 
+/* A random point of pixel number i, and the colour there. */
+static inline rt_vec3 rt__look(const rt__job *job, int i, rt_rng *rng)
+{
+    const int width = job->image->width, column = i % width, row = i / width;
+    const float dx = rt_random(rng);
+    const float dy = rt_random(rng);
+    return job->pixel(job->context, (float)column + dx, (float)row + dy, rng);
+}
+
+/* The numbers of a sample of pixel number i. */
+static inline rt_rng rt__start(const rt__job *job, int sample, int i)
+{
+    uint32_t seed;
+    const uint32_t index = rt__sequence(job, sample, &seed);
+    return job->options.sampler == RT_RANDOM ? rt_rng_start((uint32_t)i, index, seed)
+                                             : rt_sobol_start((uint32_t)i, index, seed);
+}
+
 static inline uint64_t rt__step_pixels(const rt__job *job, int sample, int first,
                                        int last)
 {
-    const int width = job->image->width;
     uint64_t rays = 0;
-    uint32_t seed;
-    const uint32_t index = rt__sequence(job, sample, &seed);
     for (int i = first; i < last; i++) {
-        rt_rng rng = job->options.sampler == RT_RANDOM
-                         ? rt_rng_start((uint32_t)i, index, seed)
-                         : rt_sobol_start((uint32_t)i, index, seed);
-        const float dx = rt_random(&rng);
-        const float dy = rt_random(&rng);
-        const int column = i % width, row = i / width;
-        const float x = (float)column + dx, y = (float)row + dy;
-        rt__record(job->image, sample, i, job->pixel(job->context, x, y, &rng));
+        rt_rng rng = rt__start(job, sample, i);
+        rt__record(job->image, sample, i, rt__look(job, i, &rng));
         rays += rng.rays;
     }
     return rays;
@@ -2055,7 +2312,12 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
 static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *rng)
 {
     const rt__job *job = (const rt__job *)context;
+#ifndef rt_camera_ray
     const rt_ray ray = rt__film_ray(&job->film, x, y);
+#else /* yours knows nothing of films */
+    const rt_ray ray =
+        rt_camera_ray(job->camera, job->image->width, job->image->height, x, y);
+#endif
     return rt_radiance(job->scene, &ray, job->options.bounces, rng);
 }
 
@@ -2112,32 +2374,78 @@ RTDEF int rt_lane_count(int wanted)
     return lanes;
 }
 
+/* What rt_render and rt_trace_pixel have in common. */
+static inline rt_status rt__set_job(rt__job *job, const rt_scene *scene,
+                                    const rt_camera *camera, const rt_options *options,
+                                    rt_image *image)
+{
+    memset(job, 0, sizeof *job);
+    if (!scene || !camera || !image)
+        return RT_BAD_POINTER;
+    const rt_status status = rt_check_scene(scene, NULL);
+    if (status != RT_OK)
+        return status;
+    if (rt_check_camera(camera) != RT_OK)
+        return RT_BAD_CAMERA;
+    if (options)
+        job->options = *options;
+    if (job->options.bounces < 0)
+        return RT_BAD_BOUNCES;
+    if (job->options.lanes != 0 &&
+        job->options.lanes != rt_lane_count(job->options.lanes))
+        return RT_BAD_LANES;
+    job->image = image;
+    job->scene = scene;
+    job->camera = camera;
+    job->film = rt__film_of(camera, image->width, image->height);
+    job->step = rt__step_pixels;
+    job->chunk = 32;
+    job->pixel = rt__pixel;
+    job->context = job;
+    return rt__check_job(image, &job->options);
+}
+
+RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
+                               const rt_options *options, const rt_image *image, int x,
+                               int y, int sample, rt_path *path)
+{
+    rt__job job;
+    rt_image copy; /* so that *image can be const */
+    if (!image || !path || (path->max_vertices > 0 && !path->vertices) ||
+        (path->max_shadows > 0 && !path->shadows))
+        return RT_BAD_POINTER;
+    copy = *image;
+    const rt_status status = rt__set_job(&job, scene, camera, options, &copy);
+    if (status != RT_OK)
+        return status;
+    if (x < 0 || x >= image->width || y < 0 || y >= image->height || sample < 0)
+        return RT_BAD_PIXEL;
+    rt_scene watched = *scene;
+    rt_bvh watch;
+    memset(&watch, 0, sizeof watch);
+    watch.path = path;
+    watched.bvh = &watch;
+    job.scene = &watched;
+    path->scene = scene;
+    path->vertex_count = path->shadow_count = 0;
+    rt_rng rng = rt__start(&job, sample, y * image->width + x);
+    path->value = rt__look(&job, y * image->width + x, &rng);
+    path->rays = rng.rays;
+    path->scene = NULL;
+    return RT_OK;
+}
+
 RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
                           const rt_options *options, rt_image *image)
 {
     rt__job job;
     rt_scene indexed;
     rt_bvh bvh;
-    memset(&job, 0, sizeof job);
-    memset(&bvh, 0, sizeof bvh);
-    if (!scene || !camera || !image)
-        return RT_BAD_POINTER;
-    rt_status status = rt_check_scene(scene, NULL);
+    rt_status status = rt__set_job(&job, scene, camera, options, image);
     if (status != RT_OK)
         return status;
-    if (rt_check_camera(camera) != RT_OK)
-        return RT_BAD_CAMERA;
-    if (options)
-        job.options = *options;
-    if (job.options.bounces < 0)
-        return RT_BAD_BOUNCES;
     const int lanes = rt_lane_count(job.options.lanes);
-    if (job.options.lanes != 0 && job.options.lanes != lanes)
-        return RT_BAD_LANES;
-    status = rt__check_job(image, &job.options);
-    if (status != RT_OK)
-        return status;
-
+    memset(&bvh, 0, sizeof bvh);
     indexed = *scene;
     if (!scene->bvh && (lanes > 1 || scene->sphere_count + scene->box_count > RT__FEW)) {
         status = rt_build_bvh(scene, &bvh);
@@ -2145,18 +2453,12 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
             return status;
         indexed.bvh = &bvh;
     }
+    job.scene = &indexed;
     const float most = RT__MODERATE;
     job.by_tree = !indexed.bvh || !indexed.bvh->shapes ||
                   !rt__within(camera->position, -most, most);
     for (int i = 0; i < scene->light_count; i++)
         job.by_tree = job.by_tree || !rt__within(scene->lights[i].position, -most, most);
-    job.image = image;
-    job.scene = &indexed;
-    job.film = rt__film_of(camera, image->width, image->height);
-    job.step = rt__step_pixels;
-    job.chunk = 32;
-    job.pixel = rt__pixel;
-    job.context = &job;
 #ifdef RT__PACKETS
     if (lanes > 1) {
         job.step = rt__step_packets4;

@@ -33,7 +33,8 @@ typedef struct settings {
     float error, seconds; /* 0: not wanted */
     rt_sampler sampler;
     const char *out;
-    bool window, quiet, help;
+    bool window, quiet, help, explain;
+    int x, y; /* the pixel to explain */
 } settings;
 
 static void print_help(const demo *d)
@@ -53,6 +54,7 @@ static void print_help(const demo *d)
         "  --seed N      another seed, another noise (default 0)\n"
         "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
         "                or %s.png where there is no folder build)\n"
+        "  --explain X,Y print what happens in this pixel, and nothing else\n"
         "  --no-window   only render and write\n"
         "  --quiet       print nothing but errors\n"
         "  --help        this\n\n"
@@ -113,6 +115,19 @@ static bool parse_sampler(const demo *d, const char *text, rt_sampler *sampler)
     return good;
 }
 
+/* X,Y: column and row of a pixel. Whether it is in the picture is asked later. */
+static bool parse_pixel(const demo *d, const char *text, settings *s)
+{
+    char comma, more;
+    s->explain = text && strspn(text, "0123456789,") == strlen(text) &&
+                 sscanf(text, "%9d%c%9d%c", &s->x, &comma, &s->y, &more) == 3 &&
+                 comma == ',';
+    if (!s->explain)
+        fprintf(stderr, "%s: --explain: '%s' is not a pixel, X,Y\n", d->name,
+                text ? text : "");
+    return s->explain;
+}
+
 static bool parse(const demo *d, int argc, char **argv, settings *s)
 {
     const struct {
@@ -144,6 +159,9 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
                 return false;
         } else if (strcmp(arg, "--sampler") == 0) {
             if (!parse_sampler(d, argv[++i], &s->sampler))
+                return false;
+        } else if (strcmp(arg, "--explain") == 0) {
+            if (!parse_pixel(d, argv[++i], s))
                 return false;
         } else if (strcmp(arg, "--out") == 0) {
             s->out = argv[++i];
@@ -181,6 +199,14 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
         fprintf(stderr, "%s: --lanes: '%lld' is not 1, 4, 8 or 16, at most %d here%s\n",
                 d->name, s->lanes, rt_lane_count(0),
                 rt_lane_count(0) == 1 ? " (was it compiled without -O?)" : "");
+        return false;
+    }
+    if (s->explain && (!d->explain || s->x >= s->width || s->y >= s->height)) {
+        if (!d->explain)
+            fprintf(stderr, "%s: --explain: chapters 7 to 9 can do that\n", d->name);
+        else
+            fprintf(stderr, "%s: --explain: %d,%d is not in a picture of %lld x %lld\n",
+                    d->name, s->x, s->y, s->width, s->height);
         return false;
     }
     const char *dot = strrchr(s->out, '.');
@@ -635,18 +661,38 @@ static void print_job(const run *r)
     fflush(stdout);
 }
 
+static rt_options options_of(run *r)
+{
+    return (rt_options){.samples = (int)r->s.samples,
+                        .bounces = (int)r->s.bounces,
+                        .threads = (int)r->s.threads,
+                        .seed = (uint32_t)r->s.seed,
+                        .progress = progress,
+                        .user = r,
+                        .sampler = r->s.sampler,
+                        .error = r->s.error,
+                        .seconds = r->s.seconds,
+                        .lanes = (int)r->s.lanes};
+}
+
+static int explain(run *r)
+{
+    rt_options options = options_of(r);
+    if (options.samples == 0)
+        options.samples = r->d->samples;
+    if (!r->s.quiet)
+        printf("%s: pixel %d,%d of %lld x %lld, %d sample%s, %lld bounce%s\n", r->d->name,
+               r->s.x, r->s.y, r->s.width, r->s.height, options.samples,
+               plural(options.samples), r->s.bounces, plural(r->s.bounces));
+    const rt_status status = r->d->explain(&options, &r->image, r->s.x, r->s.y);
+    if (status != RT_OK)
+        fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status));
+    return status == RT_OK ? DONE : FAILED;
+}
+
 static rt_status render(run *r)
 {
-    const rt_options options = {.samples = (int)r->s.samples,
-                                .bounces = (int)r->s.bounces,
-                                .threads = (int)r->s.threads,
-                                .seed = (uint32_t)r->s.seed,
-                                .progress = progress,
-                                .user = r,
-                                .sampler = r->s.sampler,
-                                .error = r->s.error,
-                                .seconds = r->s.seconds,
-                                .lanes = (int)r->s.lanes};
+    const rt_options options = options_of(r);
     if (r->d->render)
         return r->d->render(&options, &r->image);
     return rt_render_pixels(call_pixel, r, &options, &r->image);
@@ -703,7 +749,7 @@ int demo_main(int argc, char **argv, const demo *d)
         print_help(d);
         return fflush(stdout) == 0 ? DONE : FAILED;
     }
-    if (!can_write(d, r.s.out))
+    if (!r.s.explain && !can_write(d, r.s.out))
         return FAILED;
     if (d->bounces == 0 && r.s.bounces > 0 && !r.s.quiet)
         printf("%s: this chapter has no bounces yet, --bounces changes nothing\n",
@@ -724,7 +770,9 @@ int demo_main(int argc, char **argv, const demo *d)
     if (estimate)
         r.image.half = calloc(count, sizeof *r.image.half);
     int result = FAILED;
-    if (r.image.pixels && r.bytes && (r.image.half || !estimate)) {
+    if (r.image.pixels && r.bytes && (r.image.half || !estimate) && r.s.explain) {
+        result = explain(&r);
+    } else if (r.image.pixels && r.bytes && (r.image.half || !estimate)) {
         if (d->measure && !r.s.quiet)
             d->measure(rt_thread_count((int)r.s.threads));
         struct sigaction action = {.sa_handler = interrupt};

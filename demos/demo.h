@@ -26,6 +26,9 @@ typedef struct demo {
     /* NULL, or what the demo measures and prints before its picture, unless --quiet. */
     void (*measure)(int threads);
 
+    /* NULL, or what --explain prints about the pixel (x, y). */
+    rt_status (*explain)(const rt_options *options, const rt_image *image, int x, int y);
+
     /* The byte for one channel of a pixel: demo_linear, demo_gamma or the demo's own. */
     unsigned char (*encode)(float value);
 

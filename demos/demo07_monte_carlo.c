@@ -6,7 +6,7 @@
  *         less noise: four times as many, half of it.
  * Run     make demo07                         (or ARGS="--samples 256", and wait a little) */
 #include "demo.h"
-#include "scene.h"
+#include "explain.h"
 
 /* A random direction about N, drawn in proportion to its cosine with N. */
 static rt_vec3 sample_cosine(rt_vec3 N, float r1, float r2)
@@ -59,6 +59,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo07",
                              .title = "7. Indirect light",
                              .pixel = pixel,
+                             .explain = explain_indirect,
                              .encode = demo_gamma,
                              .samples = 16,
                              .bounces = 5});

@@ -3,7 +3,8 @@
  * Before  rt.h's loop ran on all cores; in the report OpenMP "did not work".
  * Now     why not: loops that are wrong, the right one, and rt_render, which traces 4 to 16
  *         rays at a time, timed side by side. Then the room, as fast as it goes.
- * Run     make demo08                                  (or ARGS="--threads 1 --lanes 1") */
+ * Run     make demo08                          (or ARGS="--threads 1 --lanes 1") */
+#include "explain.h"
 #include "loops.h"
 
 /* Wrong: the threads start and stop for each pixel. */
@@ -24,8 +25,7 @@ static void one_generator(void)
             value[i][k] = trace_by_rand(i);
 }
 
-/* Wrong: a variable from outside the loop is one for all threads. (And without "atomic", which
- * makes single accesses safe, C would not even promise that the program goes on.) */
+/* Wrong: a variable from outside is one for all. (Without "atomic" C would promise nothing.) */
 static volatile int pixel; /* volatile: do look, each time */
 static void one_variable(void)
 {
@@ -53,11 +53,11 @@ static void right_loop(void)
 
 static void measure(int threads)
 {
-    print_table((const loop[]){{"pragma on the inner loop", inner_loop},
-                               {"one generator for all threads", one_generator},
-                               {"one variable for all threads", one_variable},
-                               {"right", right_loop}},
-                4, threads);
+    const loop loops[] = {{"pragma on the inner loop", inner_loop},
+                          {"one generator for all threads", one_generator},
+                          {"one variable for all threads", one_variable},
+                          {"right", right_loop}};
+    print_table(loops, 4, threads);
 }
 
 static rt_status render(const rt_options *options, rt_image *image)
@@ -72,6 +72,7 @@ int main(int argc, char **argv)
                              .title = "8. Faster",
                              .render = render,
                              .measure = measure,
+                             .explain = explain_indirect,
                              .encode = demo_gamma,
                              .samples = 64,
                              .bounces = 5,

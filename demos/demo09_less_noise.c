@@ -5,6 +5,7 @@
  *         less noise; and the picture knows how large its error is.
  * Run     make demo09                                       (or ARGS="--error 0.05") */
 #include "noise.h"
+#include "explain.h"
 
 static uint32_t reverse(uint32_t bits)
 {
@@ -66,6 +67,7 @@ int main(int argc, char **argv)
                              .title = "9. Less noise",
                              .render = render,
                              .measure = measure,
+                             .explain = explain_indirect,
                              .encode = demo_gamma,
                              .samples = 64,
                              .bounces = 5,

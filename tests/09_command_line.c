@@ -1,16 +1,19 @@
 /* The demos as programs: options, files, messages and exit status. */
 #define _XOPEN_SOURCE 700 /* mkdtemp, popen, realpath, symlink, nftw */
 #include "programs.h"
+#include "scene_file.h"
 
 /* ---- what works --------------------------------------------------------------------- */
 
 static void test_help(void **state)
 {
     (void)state;
-    expect(0,
-           "WIDTH HEIGHT|--samples|--error|--time|--bounces|--threads|--lanes|--sampler|"
-           "--seed|--out|--no-window|--quiet|(default random)",
-           "demo07 --help");
+    expect(
+        0,
+        "WIDTH "
+        "HEIGHT|--samples|--error|--time|--bounces|--threads|--lanes|--sampler|--explain|"
+        "--seed|--out|--no-window|--quiet|(default random)",
+        "demo07 --help");
     expect(0, "(default sobol)|as many as the machine can", "demo09 --help");
 }
 
@@ -220,6 +223,61 @@ static void test_chapter_9_counts_its_points(void **state)
     read_result(&samples, &error);
     assert_int_equal(samples, 4);
     assert_true(error > 20.0 && error < 80.0);
+}
+
+/* The next vector (x, y, z) in the text, which moves on. */
+static rt_vec3 next_vec(const char **text)
+{
+    float v[3];
+    *text = strchr(*text, '(') + 1;
+    assert_int_equal(sscanf(*text, "%f, %f, %f", &v[0], &v[1], &v[2]), 3);
+    return rt_vec(v[0], v[1], v[2]);
+}
+
+static void test_explain_adds_up_to_the_pixel(void **state)
+{
+    (void)state;
+    const int pixels[5][2] = {{0, 0}, {39, 29}, {20, 15}, {12, 18}, {25, 16}};
+    expect(0, "", "demo07 40 30 --samples 3 --quiet --out e.pfm");
+    rt_vec3 *picture = read_pfm("e.pfm", 40, 30);
+    for (int i = 0; i < 5; i++) {
+        char arguments[100];
+        snprintf(arguments, sizeof arguments, "demo07 40 30 --samples 3 --explain %d,%d",
+                 pixels[i][0], pixels[i][1]);
+        expect(0, "3 samples, 5 bounces|sample 0|sample 2|camera ray meets|mean: ",
+               arguments);
+        rt_vec3 sum = {0, 0, 0}, mean = {0, 0, 0};
+        int samples = 0, points = 0;
+        for (const char *line = said; line; line = strchr(line, '\n')) {
+            line += *line == '\n';
+            const char *at = line;
+            if (strncmp(line, "  |    adds ", 12) == 0) {
+                sum = rt_add(sum, next_vec(&at));
+                points++;
+            } else if (strncmp(line, "  = ", 4) == 0) {
+                const rt_vec3 value = next_vec(&at);
+                assert_vec(sum, value.x, value.y, value.z, 2e-5);
+                mean = rt_add(mean, rt_scale(value, 1.0f / 3.0f));
+                sum = rt_vec(0, 0, 0);
+                samples++;
+            } else if (strncmp(line, "mean: ", 6) == 0) {
+                const rt_vec3 value = next_vec(&at);
+                const rt_vec3 *p = &picture[pixels[i][1] * 40 + pixels[i][0]];
+                assert_vec(mean, value.x, value.y, value.z, 2e-5);
+                assert_vec(value, p->x, p->y, p->z, 1e-5 * (1.0 + (double)p->x));
+            }
+        }
+        assert_int_equal(samples, 3);
+        assert_in_range(points, 3, 18);
+    }
+    free(picture);
+    expect(2, "--explain: 40,0 is not in a picture of 40 x 30",
+           "demo07 40 30 --explain 40,0");
+    expect(2, "--explain: '7' is not a pixel", "demo08 --explain 7");
+    expect(2, "--explain: '-1,0' is not a pixel", "demo09 --explain -1,0");
+    expect(2, "--explain: '1,2,3' is not a pixel", "demo09 --explain 1,2,3");
+    expect(2, "--explain: '' is not a pixel", "demo09 --explain");
+    expect(2, "--explain: chapters 7 to 9", "demo06 --explain 1,2");
 }
 
 static void test_without_a_display_it_says_so_and_goes_on(void **state)
@@ -498,6 +556,7 @@ int main(void)
         cmocka_unit_test(test_lanes),
         cmocka_unit_test(test_chapter_8_times_its_loops),
         cmocka_unit_test(test_chapter_9_counts_its_points),
+        cmocka_unit_test(test_explain_adds_up_to_the_pixel),
         cmocka_unit_test(test_without_a_display_it_says_so_and_goes_on),
         cmocka_unit_test(test_plain_lines_when_piped),
         cmocka_unit_test(test_bounces_where_there_are_none),

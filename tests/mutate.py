@@ -12,6 +12,7 @@ import argparse, concurrent.futures, os, re, shutil, subprocess, sys, tempfile
 
 TESTS = ["00_vectors", "01_sphere", "02_walls", "03_cube", "04_shadows", "05_gamma", "06_mirror",
          "07_monte_carlo", "08_pictures", "12_many_shapes", "13_packets", "14_less_noise",
+         "15_one_pixel",
          "10_references"]
 SWAPS = [("<", "<="), ("<=", "<"), (">", ">="), (">=", ">"), ("==", "!="), ("!=", "=="),
          ("&&", "||"), ("||", "&&"), ("+", "-"), ("-", "+"), ("*", "/"), ("/", "*"),
