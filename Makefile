@@ -27,7 +27,7 @@ DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09
 HEADERS  = rt.h demos/demo.h demos/scene.h demos/explain.h demos/loops.h demos/noise.h
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
-.PHONY: help deps demos test golden check bench docs install clean $(DEMOS)
+.PHONY: help deps demos test golden check bench docs starters try grade install clean $(DEMOS)
 
 help: ## this list
 	@echo '  make demo01 ... demo09  build and run a chapter; ARGS="1280 960 --samples 64"'
@@ -67,6 +67,24 @@ $(BUILD)/tests/%: tests/%.c $(wildcard tests/*.h) $(HEADERS) $(wildcard demos/de
 	@.ci/deps found '$(CC)' cmocka libcjson
 	@mkdir -p $(BUILD)/tests
 	$(CC) $(FLAGS) -Wno-double-promotion $(OPENMP) -o $@ $< $(LDFLAGS) $(CMOCKA) -lm
+
+# --------------------------------------------------------------------------- the classroom
+
+export SEED ONLY OUT
+
+starters: ## files to begin with, one for each routine, in build/starters
+	@tests/classroom/starter $(BUILD)/starters
+	@echo "$(BUILD)/starters: copy one, fill it in, then make try FILE=..."
+
+try: $(BUILD)/demo.o ## your own routine in place of rt.h's: FILE=my_hit_sphere.c
+	@.ci/deps found '$(CC)' cmocka libcjson
+	@CC='$(CC)' FLAGS='$(FLAGS) $(OPENMP)' LIBS='$(LDFLAGS) $(SDL_LIBS)' BUILD='$(BUILD)' \
+	    tests/classroom/run try '$(FILE)' $(ARGS)
+
+grade: ## marks for a file or a folder: FILE=submissions SEED=7 ONLY=rt_hit_sphere OUT=marks.csv
+	@CC='$(CC)' BUILD='$(BUILD)' tests/classroom/run grade '$(FILE)'
+
+# -------------------------------------------------------------------- the tests, once more
 
 golden: $(TESTS:%=$(BUILD)/tests/%) ## record the small pictures and hashes to compare with
 	-GOLDEN=record tests/run $^

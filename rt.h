@@ -2312,11 +2312,11 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
 static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *rng)
 {
     const rt__job *job = (const rt__job *)context;
-#ifndef rt_camera_ray
-    const rt_ray ray = rt__film_ray(&job->film, x, y);
-#else /* yours knows nothing of films */
+#ifdef rt_camera_ray /* yours, which knows nothing of films */
     const rt_ray ray =
         rt_camera_ray(job->camera, job->image->width, job->image->height, x, y);
+#else
+    const rt_ray ray = rt__film_ray(&job->film, x, y);
 #endif
     return rt_radiance(job->scene, &ray, job->options.bounces, rng);
 }

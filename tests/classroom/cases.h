@@ -1,0 +1,811 @@
+/* What grade.c asks of each routine, and when an answer is right. Inputs are random, but the same
+ * for the same seed. */
+#ifndef CASES_H
+#define CASES_H
+
+#include "routines.h"
+
+#include <stdio.h>
+
+enum { CASES = 200, MANY = 20000 };
+
+/* A kind of input: what it is called, how to make the k-th, and, unless it is enough to compare
+ * with rt.h's answer number by number, how to judge all answers together: the index of the
+ * first wrong one, count if all are good, -1 if only their statistics are wrong: see why. */
+typedef struct kind {
+    const char *routine, *what;
+    void (*make)(float *in, int k, uint32_t *state);
+    int (*judge)(const float *in, const float *out, int count, char *why, size_t size);
+    int count; /* 0: CASES */
+} kind;
+
+/* ---- making inputs --------------------------------------------------------------------- */
+
+static uint32_t first_state; /* made from the seed; all inputs of a kind start with it */
+
+static rt_vec3 any_direction(uint32_t *state)
+{
+    for (;;) {
+        const rt_vec3 v = vec_between(state, -1, 1);
+        if (rt_length(v) > 0.1f && rt_length(v) < 1)
+            return rt_normalize(v);
+    }
+}
+
+/* Perpendicular to a unit vector, as any other. */
+static rt_vec3 across(rt_vec3 n, uint32_t *state)
+{
+    for (;;) {
+        const rt_vec3 v = rt_cross(n, any_direction(state));
+        if (rt_length(v) > 0.2f)
+            return rt_normalize(v);
+    }
+}
+
+static rt_vec3 toward(rt_vec3 from, rt_vec3 to)
+{
+    return rt_normalize(rt_sub(to, from));
+}
+
+static void put_camera(float *in, rt_vec3 direction, rt_vec3 up, float fov_y, int width,
+                       int height, uint32_t *state)
+{
+    put_vec(&in, vec_between(state, -9, 9));
+    put_vec(&in, direction);
+    put_vec(&in, up);
+    *in++ = fov_y;
+    *in++ = (float)width;
+    *in++ = (float)height;
+    *in++ = between(state, 0, (float)width);
+    *in = between(state, 0, (float)height);
+}
+
+static void camera_straight(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_camera(in, rt_vec(0, 0, -1), rt_vec(0, 1, 0), 90, 100, 100, state);
+}
+
+static void camera_angles(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_camera(in, rt_vec(0, 0, -1), rt_vec(0, 1, 0), between(state, 5, 150), 100, 100,
+               state);
+}
+
+static void camera_sizes(float *in, int k, uint32_t *state)
+{
+    put_camera(in, rt_vec(0, 0, -1), rt_vec(0, 1, 0), 46, k % 2 == 0 ? 640 : 101,
+               k % 2 == 0 ? 480 : 303, state);
+}
+
+static void camera_anywhere(float *in, int k, uint32_t *state)
+{
+    const rt_vec3 direction = any_direction(state);
+    (void)k;
+    put_camera(in, rt_scale(direction, between(state, 0.1f, 50)),
+               rt_add(across(direction, state), rt_scale(direction, 0.3f)), 46, 320, 240,
+               state);
+}
+
+/* A sphere and a ray that comes by its centre at so many radii; from distance radii away. */
+static void put_sphere(float *in, rt_vec3 center, float radius, float beside,
+                       float distance, float length, float t_max, uint32_t *state)
+{
+    const rt_vec3 u = any_direction(state);
+    const rt_vec3 aim = rt_add(center, rt_scale(across(u, state), beside * radius));
+    put_vec(&in, center);
+    *in++ = radius;
+    put_vec(&in, rt_sub(aim, rt_scale(u, distance * radius)));
+    put_vec(&in, rt_scale(u, length));
+    *in = t_max;
+}
+
+static void sphere_hit(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
+               between(state, 0, 0.95f), between(state, 1.1f, 9), 1, FLT_MAX, state);
+}
+
+static void sphere_long(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
+               between(state, 0, 0.95f), between(state, 1.1f, 9),
+               between(state, 0.1f, 20), FLT_MAX, state);
+}
+
+static void sphere_miss(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
+               between(state, 1.05f, 3), between(state, -9, 9), 1, FLT_MAX, state);
+}
+
+static void sphere_behind(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
+               between(state, 0, 0.95f), between(state, -9, -1.1f), 1, FLT_MAX, state);
+}
+
+static void sphere_inside(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
+               between(state, 0, 0.6f), between(state, -0.6f, 0.6f), 1, FLT_MAX, state);
+}
+
+static void sphere_limit(float *in, int k, uint32_t *state)
+{
+    /* met between t = 5 and 9; the way in may be before t_max and the way out not */
+    put_sphere(in, vec_between(state, -9, 9), 2, between(state, 0, 0.9f), 3.5f, 1,
+               k % 2 == 0 ? 4.9f : 9.5f, state);
+}
+
+static void sphere_wall(float *in, int k, uint32_t *state)
+{
+    const float radius = 1e5f;
+    const rt_vec3 n = any_direction(state);
+    rt_vec3 start =
+        rt_add(rt_scale(n, -between(state, 1, 99)), vec_between(state, -9, 9));
+    (void)k;
+    put_vec(&in, rt_scale(n, -radius - 120));
+    *in++ = radius;
+    put_vec(&in, start);
+    put_vec(&in,
+            rt_normalize(rt_add(rt_scale(n, -1), rt_scale(any_direction(state), 0.7f))));
+    *in = FLT_MAX;
+}
+
+static void spoil(float *in, int first, int count, int k)
+{
+    const float bad[] = {NAN, INFINITY, -INFINITY};
+    in[first + k % count] = bad[k % 3];
+}
+
+static void sphere_bad(float *in, int k, uint32_t *state)
+{
+    sphere_hit(in, k, state);
+    if (k % 4 == 0)
+        in[7] = in[8] = in[9] = 0; /* no direction */
+    else
+        spoil(in, 0, 10, k);
+}
+
+/* A box and a ray: to a point of the box from outside or inside, or to one beside it. */
+static void put_box(float *in, bool inside, bool aims, float length, uint32_t *state)
+{
+    const rt_vec3 min = vec_between(state, -9, 5), size = vec_between(state, 0.5f, 4);
+    const rt_vec3 part = vec_between(state, 0.05f, 0.95f),
+                  other = vec_between(state, 0.05f, 0.95f);
+    const rt_vec3 n = any_direction(state);
+    rt_vec3 to = rt_add(min, rt_mul(part, size));
+    rt_vec3 from = inside ? rt_add(min, rt_mul(other, size))
+                          : rt_add(to, rt_scale(n, 6 + between(state, 3, 9)));
+    if (!aims) /* past the ball around the box */
+        to = rt_add(
+            rt_add(min, rt_scale(size, 0.5f)),
+            rt_scale(across(n, state), 0.5f * rt_length(size) + between(state, 0.1f, 5)));
+    if (!aims)
+        from = rt_add(to, rt_scale(n, between(state, -9, 9)));
+    const rt_vec3 direction = aims ? toward(from, to) : n;
+    put_vec(&in, min);
+    put_vec(&in, rt_add(min, size));
+    put_vec(&in, from);
+    put_vec(&in, rt_scale(direction, length));
+    *in = FLT_MAX;
+}
+
+static void box_hit(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_box(in, false, true, 1, state);
+}
+
+static void box_long(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_box(in, false, true, between(state, 0.1f, 20), state);
+}
+
+static void box_miss(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_box(in, false, false, 1, state);
+}
+
+static void box_behind(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_box(in, false, true, -1, state);
+}
+
+static void box_inside(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_box(in, true, true, 1, state);
+}
+
+static void box_limit(float *in, int k, uint32_t *state)
+{
+    put_box(in, false, true, 1, state); /* met at t of 4 or more */
+    in[12] = k % 2 == 0 ? 3.0f : 40.0f;
+}
+
+/* Along an axis: one or two components of the direction are zero. */
+static void box_parallel(float *in, int k, uint32_t *state)
+{
+    put_box(in, false, true, 1, state);
+    for (int axis = 0; axis < 3; axis++) {
+        const float part = between(state, 0.1f, 0.9f);
+        const bool beside = k % 5 == 0 && axis == k % 3;
+        in[6 + axis] =
+            in[axis] + part * (in[3 + axis] - in[axis]) + (beside ? 9.0f : 0.0f);
+        in[9 + axis] = 0;
+    }
+    const int along = (k + 1) % 3;
+    in[6 + along] -= 12;
+    in[9 + along] = 1;
+}
+
+static void box_bad(float *in, int k, uint32_t *state)
+{
+    box_hit(in, k, state);
+    if (k % 4 == 0)
+        in[9] = in[10] = in[11] = 0;
+    else
+        spoil(in, 6, 6, k);
+    if (k % 4 == 0)
+        in[6] -= 40; /* so that it does not start in the box */
+}
+
+/* A ray through a world: in[0] its number. From outside, or from among the things. */
+static void world_ray(float *in, int k, uint32_t *state)
+{
+    *in++ = (float)(k % 50 + 100 * (int)between(state, 0, 1000));
+    const rt_vec3 from =
+        k % 2 == 0 ? rt_scale(any_direction(state), 12) : vec_between(state, -5, 5);
+    put_vec(&in, from);
+    put_vec(&in, toward(from, vec_between(state, -5, 5)));
+}
+
+static void world_sky(float *in, int k, uint32_t *state)
+{
+    world_ray(in, k, state);
+    rt_vec3 up = any_direction(state);
+    up.y = fabsf(up.y) + 0.2f;
+    in++;
+    put_vec(&in, rt_vec(0, 9.5f, 0));
+    put_vec(&in, up);
+}
+
+static void world_limit(float *in, int k, uint32_t *state)
+{
+    world_ray(in, k, state);
+    in[7] = between(state, 0.1f, 25);
+}
+
+/* A point on a surface of a world, found with rt.h's rt_intersect, and a light. */
+static void world_point(float *in, int k, uint32_t *state)
+{
+    world w;
+    rt_hit hit;
+    memset(&hit, 0, sizeof hit);
+    do {
+        const float *at = in + 1;
+        world_ray(in, k, state);
+        make_world(&w, in[0]);
+        const rt_ray ray = take_ray(&at);
+        if (!rt_intersect(&w.scene, &ray, &hit))
+            hit.t = 0;
+    } while (!(hit.t > 0));
+    in++;
+    put_vec(&in, hit.point);
+    put_vec(&in, hit.normal);
+    put_vec(&in, vec_between(state, -6, 6));
+}
+
+/* Seen for sure: nothing near the way to the light. */
+static bool clear_way(const world *w, rt_vec3 from, rt_vec3 to)
+{
+    for (int i = 0; i <= 40; i++) {
+        const float part = (float)i / 40.0f;
+        const rt_vec3 p = rt_add(from, rt_scale(rt_sub(to, from), part));
+        for (int s = 0; s < SPHERES; s++)
+            if (i > 2 &&
+                rt_length(rt_sub(p, w->spheres[s].center)) < w->spheres[s].radius + 0.02f)
+                return false;
+    }
+    return true;
+}
+
+/* A light before, and one behind the next surface. */
+static void visible_seen(float *in, int k, uint32_t *state)
+{
+    for (;;) {
+        world w;
+        const float *at = in + 1;
+        world_point(in, k, state);
+        make_world(&w, in[0]);
+        const rt_vec3 point = take_vec(&at), normal = take_vec(&at),
+                      light = take_vec(&at);
+        if (rt_dot(normal, toward(point, light)) > 0.1f && clear_way(&w, point, light) &&
+            rt_visible(&w.scene, point, normal, light))
+            return;
+    }
+}
+
+static void visible_hidden(float *in, int k, uint32_t *state)
+{
+    for (;;) {
+        world w;
+        const float *at = in + 1;
+        world_point(in, k, state);
+        make_world(&w, in[0]);
+        const rt_vec3 point = take_vec(&at), normal = take_vec(&at),
+                      light = take_vec(&at);
+        if (rt_dot(normal, toward(point, light)) > 0.1f &&
+            !rt_visible(&w.scene, point, normal, light))
+            return;
+    }
+}
+
+static void visible_or_not(float *in, int k, uint32_t *state)
+{
+    if (k % 2 == 0)
+        visible_seen(in, k, state);
+    else
+        visible_hidden(in, k, state);
+}
+
+/* A light in front of what would hide one further away. */
+static void visible_before(float *in, int k, uint32_t *state)
+{
+    world w;
+    rt_hit blocker;
+    const float *at = in + 1;
+    visible_hidden(in, k, state);
+    if (k % 2 == 0)
+        return;
+    make_world(&w, in[0]);
+    const rt_vec3 point = take_vec(&at), normal = take_vec(&at), light = take_vec(&at);
+    rt_ray ray;
+    ray.origin = rt_leave(point, normal, rt_sub(light, point));
+    ray.direction = rt_sub(light, ray.origin);
+    float *to = in + 7;
+    if (rt_intersect(&w.scene, &ray, &blocker))
+        put_vec(&to, rt_at(&ray, 0.5f * blocker.t));
+}
+
+static void direct_lights(float *in, int k, uint32_t *state)
+{
+    float point[10];
+    visible_seen(point, k, state);
+    in[0] = point[0];
+    in[1] = (float)(1 + k % 2);
+    memcpy(in + 2, point + 1, 6 * sizeof *in);
+}
+
+static void direct_none(float *in, int k, uint32_t *state)
+{
+    direct_lights(in, k, state);
+    in[1] = 0;
+}
+
+static void put_lambert(float *in, float cosine_from, float cosine_to, float d,
+                        uint32_t *state)
+{
+    const rt_vec3 normal = any_direction(state);
+    const float cosine = between(state, cosine_from, cosine_to);
+    const rt_vec3 side = rt_scale(across(normal, state), sqrtf(1 - cosine * cosine));
+    put_vec(&in, vec_between(state, 0.1f, 1));
+    put_vec(&in, normal);
+    put_vec(&in, rt_scale(rt_add(rt_scale(normal, cosine), side), d));
+    put_vec(&in, vec_between(state, 1, 100));
+}
+
+static void lambert_above(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_lambert(in, 1, 1, 1, state);
+}
+
+static void lambert_angle(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_lambert(in, 0.05f, 1, 1, state);
+}
+
+static void lambert_far(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_lambert(in, 0.05f, 1, between(state, 0.1f, 30), state);
+}
+
+static void lambert_behind(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_lambert(in, -1, -0.01f, between(state, 0.1f, 30), state);
+}
+
+static void put_leave(float *in, float size, float side, uint32_t *state)
+{
+    const rt_vec3 normal = any_direction(state);
+    put_vec(&in, vec_between(state, -size, size));
+    put_vec(&in, normal);
+    put_vec(&in, rt_add(rt_scale(normal, side * between(state, 0.05f, 1)),
+                        across(normal, state)));
+}
+
+static void leave_above(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_leave(in, 50, 1, state);
+}
+
+static void leave_below(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_leave(in, 50, -1, state);
+}
+
+static void encode_between(float *in, int k, uint32_t *state)
+{
+    (void)state;
+    in[0] = (float)k / (CASES - 1);
+    in[1] = 2.2f;
+}
+
+static void encode_linear(float *in, int k, uint32_t *state)
+{
+    (void)state;
+    in[0] = (float)k / (CASES - 1);
+    in[1] = k % 2 == 0 ? 1 : 1.8f;
+}
+
+static void encode_outside(float *in, int k, uint32_t *state)
+{
+    in[0] = k % 2 == 0 ? between(state, -5, 0) : between(state, 1, 50);
+    in[1] = 2.2f;
+}
+
+static void encode_bad(float *in, int k, uint32_t *state)
+{
+    encode_between(in, k, state);
+    in[0] = 0.5f;
+    spoil(in, 0, 1, k);
+}
+
+static void reflect_unit(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_vec(&in, any_direction(state));
+    put_vec(&in, any_direction(state));
+}
+
+static void reflect_long(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_vec(&in, rt_scale(any_direction(state), between(state, 0.1f, 30)));
+    put_vec(&in, any_direction(state));
+}
+
+static void random_pixels(float *in, int k, uint32_t *state)
+{
+    (void)state;
+    in[0] = (float)(k % 141);
+    in[1] = (float)(k / 141);
+    in[2] = 1;
+}
+
+static void random_again(float *in, int k, uint32_t *state)
+{
+    (void)state;
+    random_pixels(in, k % (CASES / 2), state);
+}
+
+static void cosine_any(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_vec(&in, any_direction(state));
+    *in++ = between(state, 1e-4f, 1 - 1e-4f);
+    *in = between(state, 1e-4f, 1 - 1e-4f);
+}
+
+static void cosine_axes(float *in, int k, uint32_t *state)
+{
+    cosine_any(in, k, state);
+    in[0] = in[1] = in[2] = 0;
+    in[k % 3] = k % 2 == 0 ? 1 : -1;
+}
+
+static void put_radiance(float *in, int bounces, int k, bool mirrors, uint32_t *state)
+{
+    world_ray(in, k, state);
+    in[0] = 2 * floorf(in[0] / 2) + (mirrors ? 1.0f : 0.0f);
+    in[7] = (float)bounces;
+    in[8] = (float)k;
+}
+
+static void radiance_direct(float *in, int k, uint32_t *state)
+{
+    put_radiance(in, 0, k, false, state);
+}
+
+static void radiance_sky(float *in, int k, uint32_t *state)
+{
+    world_sky(in, k, state);
+    in[7] = 5;
+    in[8] = (float)k;
+}
+
+static void radiance_mirror(float *in, int k, uint32_t *state)
+{
+    for (;;) { /* rays that see something in the mirror */
+        world w;
+        rt_hit hit;
+        const float *at = in + 1;
+        put_radiance(in, 1, k, true, state);
+        make_world(&w, in[0]);
+        const rt_ray ray = take_ray(&at);
+        if (rt_intersect(&w.scene, &ray, &hit) && hit.material->mirror)
+            return;
+    }
+}
+
+static void radiance_seen(float *in, uint32_t *state)
+{
+    for (;;) { /* a ray that sees something, not in the mirror */
+        world w;
+        rt_hit hit;
+        const float *at = in + 1;
+        put_radiance(in, 3, 0, false, state);
+        make_world(&w, in[0]);
+        const rt_ray ray = take_ray(&at);
+        if (rt_intersect(&w.scene, &ray, &hit))
+            return;
+    }
+}
+
+/* One ray, again and again, with other random numbers. */
+static void radiance_mean(float *in, int k, uint32_t *state)
+{
+    uint32_t same = first_state;
+    (void)state;
+    radiance_seen(in, &same);
+    in[8] = (float)k;
+}
+
+/* ---- judging answers ------------------------------------------------------------------- */
+
+static int judge_leave(const float *in, const float *out, int count, char *why,
+                       size_t size)
+{
+    for (int k = 0; k < count; k++) {
+        const float *at = in + 9 * k, *start = out + 3 * k;
+        const rt_vec3 point = take_vec(&at), normal = take_vec(&at),
+                      direction = take_vec(&at);
+        const rt_vec3 step = rt_sub(take_vec(&start), point);
+        const float along =
+            rt_dot(step, normal) * (rt_dot(normal, direction) < 0 ? -1.0f : 1.0f);
+        const float aside =
+            rt_length(rt_sub(step, rt_scale(normal, rt_dot(step, normal))));
+        if (along > 1e-6f && along < 2e-2f && aside < 1e-4f)
+            continue;
+        snprintf(why, size, "%s",
+                 !(along > 1e-6f)   ? "not on the side to which the ray goes"
+                 : !(along < 2e-2f) ? "too far away from the surface"
+                                    : "not straight above the surface");
+        return k;
+    }
+    return count;
+}
+
+static int judge_encode(const float *in, const float *out, int count, char *why,
+                        size_t size)
+{
+    (void)why, (void)size;
+    for (int k = 0; k < count; k++) {
+        const double value = (double)in[2 * k], gamma = (double)in[2 * k + 1];
+        if (!(fabs((double)out[k] - 255.0 * pow(value, 1.0 / gamma)) <= 0.51))
+            return k;
+    }
+    return count;
+}
+
+/* Chi-square of counts that should all be the same, as standard deviations of its normal
+ * approximation (Wilson, Hilferty). Above LIMIT is wrong: a right routine gets there once in a
+ * million times (one-sided, 4.75 sigma). */
+#define LIMIT 4.75
+
+static double surprise(const int *counts, int bins, int total)
+{
+    const double expected = (double)total / bins, n = bins - 1;
+    double chi2 = 0.0;
+    for (int i = 0; i < bins; i++)
+        chi2 += (counts[i] - expected) * (counts[i] - expected) / expected;
+    return (cbrt(chi2 / n) - (1.0 - 2.0 / (9.0 * n))) / sqrt(2.0 / (9.0 * n));
+}
+
+static int bin_of(float v, int bins)
+{
+    const int bin = (int)(v * (float)bins);
+    return bin < 0 ? 0 : bin < bins ? bin : bins - 1;
+}
+
+static int judge_uniform(const float *in, const float *out, int count, char *why,
+                         size_t size)
+{
+    int counts[8][64] = {{0}}, squares[7][64] = {{0}}, neighbours[64] = {0};
+    (void)in;
+    for (int k = 0; k < count; k++) {
+        const float *r = out + 8 * k;
+        for (int i = 0; i < 8; i++) {
+            if (!(r[i] > 0 && r[i] < 1))
+                return snprintf(why, size, "%.9g is not in (0, 1)", (double)r[i]), k;
+            counts[i][bin_of(r[i], 64)]++;
+            if (i < 7)
+                squares[i][8 * bin_of(r[i], 8) + bin_of(r[i + 1], 8)]++;
+        }
+        if (k > 0)
+            neighbours[8 * bin_of(r[0], 8) + bin_of(r[-8], 8)]++;
+    }
+    for (int i = 0; i < 8; i++)
+        if (surprise(counts[i], 64, count) > LIMIT)
+            return snprintf(why, size, "number %d of a sample is not uniform", i), -1;
+    for (int i = 0; i < 7; i++)
+        if (surprise(squares[i], 64, count) > LIMIT)
+            return snprintf(why, size,
+                            "numbers %d and %d of a sample depend on each other", i,
+                            i + 1),
+                   -1;
+    if (surprise(neighbours, 64, count - 1) > LIMIT)
+        return snprintf(why, size,
+                        "neighbouring pixels have numbers that depend on each other"),
+               -1;
+    return count;
+}
+
+static int judge_again(const float *in, const float *out, int count, char *why,
+                       size_t size)
+{
+    (void)in;
+    for (int k = count / 2; k < count; k++)
+        if (memcmp(out + 8 * k, out + 8 * (k - count / 2), 8 * sizeof *out) != 0)
+            return snprintf(why, size,
+                            "another number when the same sample is asked again"),
+                   k;
+    return count;
+}
+
+static int judge_side(const float *in, const float *out, int count, char *why,
+                      size_t size)
+{
+    for (int k = 0; k < count; k++) {
+        const float *at = in + 5 * k, *to = out + 3 * k;
+        const rt_vec3 normal = take_vec(&at), w = take_vec(&to);
+        const float length = rt_length(w);
+        if (!(fabsf(length - 1) < 1e-4f))
+            return snprintf(why, size, "its length is %.6g, not 1", (double)length), k;
+        if (!(rt_dot(w, normal) > -1e-6f))
+            return snprintf(why, size, "it goes into the surface"), k;
+    }
+    return count;
+}
+
+static int judge_cosine(const float *in, const float *out, int count, char *why,
+                        size_t size)
+{
+    int height[32] = {0}, around[32] = {0}, both[64] = {0};
+    for (int k = 0; k < count; k++) {
+        const float *at = in + 5 * k, *to = out + 3 * k;
+        const rt_vec3 normal = take_vec(&at), w = take_vec(&to);
+        rt_vec3 a, b;
+        rt_basis(normal, &a, &b);
+        const float z = rt_dot(w, normal);
+        const float turn = 0.5f + atan2f(rt_dot(w, b), rt_dot(w, a)) / 6.2831853f;
+        if (!(z >= -1e-6f && turn >= 0 && turn <= 1))
+            return snprintf(why, size, "it goes into the surface"), k;
+        height[bin_of(z * z, 32)]++; /* uniform, if the density is cosine / pi */
+        around[bin_of(turn, 32)]++;
+        both[8 * bin_of(z * z, 8) + bin_of(turn, 8)]++;
+    }
+    if (surprise(height, 32, count) > LIMIT)
+        return snprintf(why, size, "too many directions are %s",
+                        height[31] < count / 40 ? "flat" : "steep"),
+               -1;
+    if (surprise(around, 32, count) > LIMIT)
+        return snprintf(why, size, "not the same all around the normal"), -1;
+    if (surprise(both, 64, count) > LIMIT)
+        return snprintf(why, size, "angle and height depend on each other"), -1;
+    return count;
+}
+
+/* The mean of many paths against that of rt.h: both are known within their noise. */
+static int judge_mean(const float *in, const float *out, int count, char *why,
+                      size_t size)
+{
+    for (int c = 0; c < 3; c++) {
+        double sum[2] = {0.0, 0.0}, squares[2] = {0.0, 0.0};
+        for (int k = 0; k < count; k++) {
+            float right[3];
+            call_radiance(in + 9 * k, right);
+            const double v[2] = {(double)out[3 * k + c], (double)right[c]};
+            for (int i = 0; i < 2; i++) {
+                sum[i] += v[i];
+                squares[i] += v[i] * v[i];
+            }
+        }
+        double variance = 0.0;
+        for (int i = 0; i < 2; i++)
+            variance += (squares[i] / count - sum[i] * sum[i] / count / count) / count;
+        const double difference = fabs(sum[0] - sum[1]) / count;
+        if (!(difference <= 5.0 * sqrt(variance) + 1e-5))
+            return snprintf(
+                       why, size,
+                       "the mean of %d paths is %.4g, but %.4g is right (noise %.2g)",
+                       count, sum[0] / count, sum[1] / count, sqrt(variance)),
+                   -1;
+    }
+    return count;
+}
+
+/* ---- the table ------------------------------------------------------------------------- */
+
+static const kind kinds[] = {
+    {"rt_camera_ray", "looks along -z, 90 degrees", camera_straight, NULL, 0},
+    {"rt_camera_ray", "other angles of view", camera_angles, NULL, 0},
+    {"rt_camera_ray", "wide and high pictures", camera_sizes, NULL, 0},
+    {"rt_camera_ray", "looks anywhere", camera_anywhere, NULL, 0},
+    {"rt_hit_sphere", "hits from outside", sphere_hit, NULL, 0},
+    {"rt_hit_sphere", "directions of any length", sphere_long, NULL, 0},
+    {"rt_hit_sphere", "passes by", sphere_miss, NULL, 0},
+    {"rt_hit_sphere", "the sphere is behind", sphere_behind, NULL, 0},
+    {"rt_hit_sphere", "from inside", sphere_inside, NULL, 0},
+    {"rt_hit_sphere", "t_max before or after the hit", sphere_limit, NULL, 0},
+    {"rt_hit_sphere", "a wall of radius 1e5", sphere_wall, NULL, 0},
+    {"rt_hit_sphere", "no direction, NaN, infinity", sphere_bad, NULL, 0},
+    {"rt_intersect", "the nearest of eight shapes", world_ray, NULL, 0},
+    {"rt_intersect", "nothing there", world_sky, NULL, 0},
+    {"rt_lambert", "a light straight above, at distance 1", lambert_above, NULL, 0},
+    {"rt_lambert", "at any angle", lambert_angle, NULL, 0},
+    {"rt_lambert", "at any distance", lambert_far, NULL, 0},
+    {"rt_lambert", "behind the surface", lambert_behind, NULL, 0},
+    {"rt_hit_box", "hits from outside", box_hit, NULL, 0},
+    {"rt_hit_box", "directions of any length", box_long, NULL, 0},
+    {"rt_hit_box", "passes by", box_miss, NULL, 0},
+    {"rt_hit_box", "the box is behind", box_behind, NULL, 0},
+    {"rt_hit_box", "from inside", box_inside, NULL, 0},
+    {"rt_hit_box", "t_max before or after the hit", box_limit, NULL, 0},
+    {"rt_hit_box", "along an axis", box_parallel, NULL, 0},
+    {"rt_hit_box", "no direction, NaN, infinity", box_bad, NULL, 0},
+    {"rt_leave", "on the outside", leave_above, judge_leave, 0},
+    {"rt_leave", "through the surface", leave_below, judge_leave, 0},
+    {"rt_occluded", "something in between, or beyond t_max", world_limit, NULL, 0},
+    {"rt_occluded", "nothing there", world_sky, NULL, 0},
+    {"rt_visible", "lights seen, and lights hidden", visible_or_not, NULL, 0},
+    {"rt_visible", "lights in front of something", visible_before, NULL, 0},
+    {"rt_direct", "one light or two", direct_lights, NULL, 0},
+    {"rt_direct", "no light", direct_none, NULL, 0},
+    {"rt_encode", "from 0 to 1, gamma 2.2", encode_between, judge_encode, 0},
+    {"rt_encode", "other gammas", encode_linear, judge_encode, 0},
+    {"rt_encode", "below 0 and above 1", encode_outside, NULL, 0},
+    {"rt_encode", "NaN, infinity", encode_bad, NULL, 0},
+    {"rt_reflect", "unit vectors", reflect_unit, NULL, 0},
+    {"rt_reflect", "of any length", reflect_long, NULL, 0},
+    {"rt_random", "uniform, and independent", random_pixels, judge_uniform, MANY},
+    {"rt_random", "the same for the same sample", random_again, judge_again, 0},
+    {"rt_sample_cosine", "unit length, on the side of N", cosine_any, judge_side, 0},
+    {"rt_sample_cosine", "N along an axis", cosine_axes, judge_side, 0},
+    {"rt_sample_cosine", "density cosine / pi", cosine_any, judge_cosine, MANY},
+    {"rt_radiance", "direct light", radiance_direct, NULL, 0},
+    {"rt_radiance", "background", radiance_sky, NULL, 0},
+    {"rt_radiance", "one mirror", radiance_mirror, NULL, 0},
+    {"rt_radiance", "indirect light", radiance_mean, judge_mean, MANY},
+};
+
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
+#endif

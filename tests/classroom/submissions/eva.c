@@ -1,0 +1,11 @@
+/* Never ends. */
+#define rt_reflect my_reflect
+#include "rt.h"
+
+static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal)
+{
+    volatile int forever = 1;
+    while (forever)
+        incident = rt_sub(incident, normal);
+    return incident;
+}

@@ -1,0 +1,9 @@
+/* Always NaN. */
+#define rt_reflect my_reflect
+#include "rt.h"
+
+static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal)
+{
+    (void)normal;
+    return rt_scale(incident, NAN);
+}
