@@ -90,10 +90,10 @@
  *                 OMP_WAIT_POLICY=passive in the environment, or its threads lose time by
  *                 waiting for each other.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
- *                 of threads or lanes, nor on how samples are split over calls. For
- *                 the same bits with all compilers, for all machines (-march=native),
- *                 pass -ffp-contract=off: gcc contracts a*b+c where the machine can.
- *                 -ffast-math is refused.
+ *                 of threads or lanes, nor on how samples are split over calls. Pass
+ *                 -ffp-contract=off for that: else gcc contracts a*b+c where the machine
+ *                 can (-march=native), and not everywhere alike. It also makes the bits
+ *                 the same on all machines and compilers. -ffast-math is refused.
  * ROBUSTNESS      Spheres are intersected in double precision, so that walls of radius
  *                 1e5 work in a room of size 100: no wrong hit or miss in 1.8 million
  *                 rays, t within one rounding. Boxes in float, exact on planes, edges and

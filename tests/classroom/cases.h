@@ -497,7 +497,7 @@ static void random_pixels(float *in, int k, uint32_t *state)
     (void)state;
     in[0] = (float)(k % 141);
     in[1] = (float)(k / 141);
-    in[2] = 1;
+    in[2] = (float)(first_state >> 8);
 }
 
 static void random_again(float *in, int k, uint32_t *state)
