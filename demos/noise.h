@@ -48,7 +48,8 @@ static double error_of(rt_sampler sampler, int samples, int threads)
 
 static void print_errors(int threads)
 {
-    printf("error, estimated from two halves: random   Sobol   as many random samples\n");
+    printf("error, estimated from two halves: random   Sobol   random samples for "
+           "Sobol's error\n");
     for (int samples = 4; samples <= 256; samples *= 4) {
         const double by_random = error_of(RT_RANDOM, samples, threads);
         const double by_sobol = error_of(RT_SOBOL, samples, threads);
