@@ -1,6 +1,9 @@
 /* The sphere of a first lecture, in float: for tests/cost.c only. */
-static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
-                                 rt_hit *hit)
+#define rt_hit_sphere plain_hit_sphere
+#include "../rt.h"
+
+static inline bool plain_hit_sphere(const rt_sphere *sphere, const rt_ray *ray,
+                                    float t_max, rt_hit *hit)
 {
     const rt_vec3 f = rt_sub(ray->origin, sphere->center);
     const float a = rt_dot(ray->direction, ray->direction);
