@@ -152,6 +152,15 @@ static bool copy_file(const char *from, const char *to, char *why, size_t size)
     return true;
 }
 
+/* What others wrote, without what could do something to a terminal. */
+static char *printable(char *text)
+{
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 127)
+            *c = '?';
+    return text;
+}
+
 static void show_log(const char *path)
 {
     char line[160];
@@ -161,9 +170,7 @@ static void show_log(const char *path)
         const char *at = strstr(line, "submission.c"); /* without the folders before it */
         if (at && line[0] != ' ')
             memmove(line, at, strlen(at) + 1);
-        for (char *c = line; *c; c++)
-            *c = *c >= ' ' && *c < 127 ? *c : '?';
-        printf("         %s\n", line);
+        printf("         %s\n", printable(line));
     }
     if (file)
         fclose(file);
@@ -221,8 +228,13 @@ static void mark_file(const char *path, const char *who, marks *m)
             who);
         return;
     }
-    for (int i = 0; i < ROUTINES; i++)
+    for (int i = 0; i < ROUTINES; i++) {
+        if (found[i] && m->handed_in[i])
+            printf("%s: %s was in another file: not marked again\n", who,
+                   routines[i].name);
+        found[i] = found[i] && !m->handed_in[i];
         m->handed_in[i] = m->handed_in[i] || found[i];
+    }
     snprintf(how, sizeof how, "%s -o %s tests/classroom/pupil.c -lm", STATIC, program);
     if (!compile(how, log)) {
         printf("%s: does not compile\n", who);
@@ -269,6 +281,7 @@ static void mark_submission(const char *path, const char *name, marks *m)
     struct stat info;
     memset(m, 0, sizeof *m);
     snprintf(m->name, sizeof m->name, "%s", name);
+    name = printable(m->name);
     if (stat(path, &info) == 0 && S_ISDIR(info.st_mode)) {
         struct dirent **files;
         const int count = scandir(path, &files, only_c, alphasort);
@@ -278,7 +291,7 @@ static void mark_submission(const char *path, const char *name, marks *m)
             char inner[2 * LONGEST + 300], who[2 * LONGEST];
             snprintf(inner, sizeof inner, "%s/%s", path, files[i]->d_name);
             snprintf(who, sizeof who, "%s/%s", name, files[i]->d_name);
-            mark_file(inner, who, m);
+            mark_file(inner, printable(who), m);
             free(files[i]);
         }
         if (count >= 0)
@@ -298,7 +311,7 @@ static void mark_submission(const char *path, const char *name, marks *m)
 
 static void print_table(const marks *m, int count)
 {
-    printf("\n%-24s", options.trying ? "" : "chapter");
+    printf("\n%-24s", "chapter");
     for (int c = 1; c < CHAPTERS; c++)
         printf("%7d", c);
     printf("    total\n");
