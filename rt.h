@@ -1479,8 +1479,8 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
 
 /* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
  * set scene->bvh = bvh. When a shape or its material changes, build it anew. (A sphere
- * smaller than a ten-millionth of its distance may be missed with the tree or hit
- * without it: double does not tell.) Memory: 130 bytes are asked of RT_MALLOC for each
+ * smaller than a millionth of its distance may be missed with the tree or hit without
+ * it: double does not tell.) Memory: 130 bytes are asked of RT_MALLOC for each
  * shape, of which some 80 are used, for rt_free_bvh to give back; and 28 more while it
  * builds.
  *
@@ -1804,7 +1804,8 @@ static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
         b.max = scene->boxes[number - scene->sphere_count].max;
     } else {
         const rt_sphere *s = &scene->spheres[number];
-        const rt_vec3 r = rt_vec(s->radius, s->radius, s->radius);
+        const float radius = 1.001f * s->radius; /* from far away double is no better */
+        const rt_vec3 r = rt_vec(radius, radius, radius);
         b.min = rt_sub(s->center, r);
         b.max = rt_add(s->center, r);
     }

@@ -243,6 +243,37 @@ static void test_the_same_hits_as_without_a_tree(void **state)
     assert_true(hits > 100000);
 }
 
+/* Rays that graze a sphere from far away, in the plane of a face of its box: where double takes
+ * a miss for a hit, the box must not know better. */
+static void test_grazing_rays_from_far_away(void **state)
+{
+    (void)state;
+    const rt_sphere sphere = {{0, 0, 0}, 1, {{1, 1, 1}, false}};
+    rt_scene scene = {0};
+    rt_bvh bvh;
+    scene.spheres = &sphere;
+    scene.sphere_count = 1;
+    assert_int_equal(rt_build_bvh(&scene, &bvh), RT_OK);
+    rt_rng rng = rt_rng_start(5, 6, 7);
+    int found = 0;
+    for (int i = 0; i < 200000; i++) {
+        const float distance = powf(10, uniform(&rng, 2, 6));
+        const float beside = 1 + uniform(&rng, -1, 1) * 3e-16f * distance * distance;
+        const rt_ray ray =
+            i % 3 == 0   ? ray_of(rt_vec(beside, 0, distance), rt_vec(0, 0, -1))
+            : i % 3 == 1 ? ray_of(rt_vec(distance, beside, 0), rt_vec(-1, 0, 0))
+                         : ray_of(rt_vec(0, -distance, beside), rt_vec(0, 1, 0));
+        rt_hit hit;
+        scene.bvh = NULL;
+        const bool without = rt_intersect(&scene, &ray, &hit);
+        scene.bvh = &bvh;
+        assert_int_equal(rt_intersect(&scene, &ray, &hit), without);
+        found += without;
+    }
+    assert_in_range(found, 100000, 190000);
+    rt_free_bvh(&bvh);
+}
+
 static void test_a_shape_without_size(void **state)
 {
     /* Boxes that are points or lines, and rays straight at them. */
@@ -790,6 +821,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_same_hits_as_without_a_tree),
+        cmocka_unit_test(test_grazing_rays_from_far_away),
         cmocka_unit_test(test_a_shape_without_size),
         cmocka_unit_test(test_of_copies_the_first_wins),
         cmocka_unit_test(test_an_empty_tree),

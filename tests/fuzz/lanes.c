@@ -32,7 +32,7 @@ static rt_vec3 middle; /* of the scene: far from (0,0,0) few digits are left */
 
 /* A speck: a sphere so small for the scene that double does not tell whether a ray grazes it.
  * Tree and plain loop may differ there, see "Known limits" in docs/correctness.md. */
-#define SPECK 4e-5f
+#define SPECK 1e-6f
 static float span, least; /* how far shapes reach; the smallest radius of a sphere */
 
 /* The style of lengths: few different ones, so that things touch, coincide and line up; or
