@@ -111,6 +111,7 @@ docs: $(DEMOS:%=$(BUILD)/%) ## put excerpts and pictures into docs/ and README.m
 	        --out docs/images/demo09-$$sampler.png || exit; \
 	done
 	docs/excerpts.sh README.md docs/*.md
+	docs/gallery.sh
 
 install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR
 	install -d -m 755 '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'

@@ -1,0 +1,86 @@
+#!/bin/sh
+# The gallery of mistakes: docs/mistakes.md from docs/mistakes/*.c, each of them a routine of
+# rt.h with one mistake in it, really rendered and really tested.
+#   docs/gallery.sh            render the pictures, find the tests that go red, write the page
+#   docs/gallery.sh --check    is what is there what this would make?
+cc=${CC:-cc} build=${BUILD:-build} page=docs/mistakes.md pictures=docs/images/mistakes
+work=$(mktemp -d "$build/gallery.XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+export OMP_WAIT_POLICY=passive LC_ALL=C
+flags="-std=c99 -O2 -fno-math-errno -ffp-contract=off -w -I. -DRT_STATIC"
+openmp=$(.ci/deps openmp "$cc")
+
+field() { # FILE NAME: from the comment at the top of a mistake, on one line
+    awk -v name="$2" 'index($0, " * " name ":") == 1 { on = 1; sub(/^ \* [A-Z][a-z]*: */, ""); print; next }
+        /^ \* [A-Z][a-z]*:/ || /^ \*\// { on = 0 }
+        on { sub(/^ \* */, ""); print }' "$1" | paste -s -d ' '
+}
+
+render() { # NAME SUBMISSION OPTIONS
+    $cc $flags $openmp "-DSUBMISSION=\"$2\"" -o "$work/$1" tests/classroom/show.c \
+        "$build/demo.o" $(pkg-config --libs sdl2) -lm &&
+        "$work/$1" 240 180 --samples 16 --lanes 1 --no-window --quiet --out "$work/$1.png" $3
+}
+
+red() { # NAME FILE: which test of its chapter goes red on it, the first
+    test=$(basename "$(ls tests/0"${1%%-*}"_*.c)" .c)
+    $cc -std=c99 -O1 -ffp-contract=off -w -I. -include "$2" -o "$work/$1.test" "tests/$test.c" \
+        $(pkg-config --cflags --libs cmocka libcjson) -lm || return
+    timeout 60 "$work/$1.test" 2>&1 |
+        sed -n "s/^\[  FAILED  \] \(test_[a-z0-9_]*\).*/\`\1\` in \`tests\/$test.c\`/p" | head -1
+}
+
+one() { # FILE: render it, and write its part of the page
+    name=$(basename "$1" .c) options=$(field "$1" Options)
+    render "$name" "$1" "$options" || exit 1
+    test=$(red "$name" "$1")
+    [ -n "$test" ] || { echo "$1: no test goes red" >&2; exit 1; }
+    right=right
+    [ -z "$options" ] || right=right-direct
+    title=$(sed -n '1s/^\/\* //p' "$1")
+    cat >"$work/$name.md" <<END
+
+### $title
+
+| right | wrong |
+|---|---|
+| ![the room as it should be](images/mistakes/$right.png) | ![$title](images/mistakes/$name.png) |
+
+**Symptom:** $(field "$1" Symptom). **Cause:** $(field "$1" Cause). **Cure:** $(field "$1" Cure).
+Red: $test. The code: [mistakes/$name.c](mistakes/$name.c).
+END
+}
+
+echo '#include "rt.h"' >"$work/none.c"
+render right "$work/none.c" "" && render right-direct "$work/none.c" "--bounces 0" || exit 1
+for file in docs/mistakes/*.c; do
+    one "$file" &
+    [ "$(jobs -p | wc -l)" -lt 2 ] || wait
+done
+wait
+for file in docs/mistakes/*.c; do
+    [ -e "$work/$(basename "$file" .c).md" ] || { echo "$file: not done"; exit 1; }
+done
+
+{
+    sed '/^<!-- gallery -->$/q' "$page"
+    for file in docs/mistakes/*.c; do
+        name=$(basename "$file" .c) n=${name%%-*}
+        [ "$n" = "$last" ] || printf '\n## %s\n' \
+            "$(sed -n '1s/^# //p' docs/0"$n"-*.md | sed "s/^\([0-9]\)\. /Chapter \1: /")"
+        last=$n
+        cat "$work/$name.md"
+    done
+    echo
+    sed -n '/^<!-- \/gallery -->$/,$p' "$page"
+} >"$work/page.md"
+
+if [ "$1" = --check ]; then
+    cmp -s "$work/page.md" "$page" || { diff "$page" "$work/page.md" | head; echo "$page is stale: docs/gallery.sh"; exit 1; }
+    for picture in "$work"/*.png; do
+        cmp -s "$picture" "$pictures/$(basename "$picture")" ||
+            { echo "$pictures/$(basename "$picture") is stale: docs/gallery.sh"; exit 1; }
+    done
+else
+    mkdir -p "$pictures" && cp "$work"/*.png "$pictures" && cp "$work/page.md" "$page"
+fi

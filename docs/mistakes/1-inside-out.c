@@ -1,0 +1,30 @@
+/* The normal turned round
+ *
+ * Symptom: the walls are black: the lamp seems to be behind them
+ * Cause:   the normal of the walls was flipped, "because we are inside"; the room
+ *          is *outside* of its giant spheres
+ * Cure:    let the ray decide: the normal is on the side from which it comes
+ * Options:
+ */
+#define rt_hit_sphere my_hit_sphere
+#include "rt.h"
+
+static inline bool my_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
+                                 rt_hit *hit)
+{
+    const rt_dvec3 u = rt_to_double(ray->direction), o = rt_to_double(sphere->center);
+    const rt_dvec3 f = rt_dsub(rt_to_double(ray->origin), o);
+    const double r = (double)sphere->radius, a = rt_ddot(u, u), b = rt_ddot(f, u);
+    const double root = sqrt(b * b - a * (rt_ddot(f, f) - r * r));
+    double t = (-b - root) / a;
+    if (!(t > 0))
+        t = (-b + root) / a;
+    if (!(t > 0 && t < (double)t_max))
+        return false;
+    const rt_dvec3 n = rt_dscale(rt_dmad(f, t, u), 1 / r);
+    hit->t = (float)t;
+    hit->point = rt_to_float(rt_dmad(o, r, n));
+    hit->normal = rt_to_float(rt_dscale(n, r > 100 ? -1 : 1));
+    hit->material = &sphere->material;
+    return true;
+}

@@ -1,0 +1,25 @@
+/* Upside down
+ *
+ * Symptom: the picture stands on its head
+ * Cause:   rows count from the top, y counts upwards
+ * Cure:    height/2 - y, not y - height/2
+ * Options:
+ */
+#define rt_camera_ray my_camera_ray
+#include "rt.h"
+
+static inline rt_ray my_camera_ray(const rt_camera *camera, int width, int height,
+                                   float x, float y)
+{
+    const rt_vec3 forward = rt_normalize(camera->direction);
+    const rt_vec3 right = rt_normalize(rt_cross(forward, camera->up));
+    const rt_vec3 top = rt_cross(right, forward);
+    const float size = 2 * tanf(camera->fov_y * 3.14159265f / 360) / (float)height;
+    const float to_right = size * (x - 0.5f * (float)width);
+    const float to_top = size * (y - 0.5f * (float)height);
+    rt_ray ray;
+    ray.origin = camera->position;
+    ray.direction = rt_normalize(
+        rt_add(forward, rt_add(rt_scale(right, to_right), rt_scale(top, to_top))));
+    return ray;
+}

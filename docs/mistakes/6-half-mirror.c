@@ -1,0 +1,15 @@
+/* Half a reflection
+ *
+ * Symptom: the mirror shows the room bent and stretched, or the floor only
+ * Cause:   I - <I,N> N: the part along the normal is taken off once, so the ray
+ *          runs along the surface
+ * Cure:    twice: I - 2 <I,N> N
+ * Options:
+ */
+#define rt_reflect my_reflect
+#include "rt.h"
+
+static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal)
+{
+    return rt_sub(incident, rt_scale(normal, rt_dot(incident, normal)));
+}

@@ -1,0 +1,21 @@
+/* Uniform directions without the cosine
+ *
+ * Symptom: corners are too bright, and there is more noise
+ * Cause:   directions uniform on the hemisphere, but the estimate leaves the cosine
+ *          out, as if it were in their density
+ * Cure:    cosine-weighted directions; or uniform ones, and 2 <N,w> as a factor
+ * Options:
+ */
+#define rt_sample_cosine my_sample_cosine
+#include "rt.h"
+
+static inline rt_vec3 my_sample_cosine(rt_vec3 normal, float r1, float r2)
+{
+    const float radius = sqrtf(1 - r2 * r2);
+    float sine, cosine;
+    rt_vec3 a, b;
+    rt_sincos(r1, &sine, &cosine);
+    rt_basis(normal, &a, &b);
+    return rt_add(rt_add(rt_scale(a, cosine * radius), rt_scale(b, sine * radius)),
+                  rt_scale(normal, r2));
+}
