@@ -1,7 +1,7 @@
 /* The far side of the sphere
  *
- * Symptom: the ball looks flat or hollow, as if seen from inside; the walls are
- *          gone
+ * Symptom: nearly black: the ball, the mirror and the walls are gone, and the cube
+ *          alone is left
  * Cause:   + in place of -: of the two roots the larger one was taken
  * Cure:    first the smaller root, (-b - sqrt(D)) / a; the larger one only if that
  *          is not positive

@@ -1,6 +1,7 @@
 /* / 2*a
  *
- * Symptom: right on the screen, but shadows are wrong: dark specks and patches
+ * Symptom: everything is where it should be, but shadows are missing or in the
+ *          wrong place
  * Cause:   (-b - sqrt(D)) / 2 * a divides by 2 and *multiplies* by a; that is right
  *          while a = 1, and shadow rays are longer
  * Cure:    brackets: / (2 * a); and test with directions of any length

@@ -1,6 +1,7 @@
 /* An unsigned difference
  *
- * Symptom: three quarters of the picture are black or stretched
+ * Symptom: three quarters of the picture have one flat colour, and the rest shows
+ *          the corner of the room
  * Cause:   x - width / 2 in unsigned numbers: left of the middle it is not negative
  *          but four billion
  * Cure:    signed numbers, or float, before the subtraction

@@ -1,6 +1,6 @@
 /* The colour of what casts the shadow
  *
- * Symptom: shadows glow in the colour of what casts them
+ * Symptom: surfaces have the colour of other things, in patches
  * Cause:   the hit record of the shadow ray was written over that of the surface
  * Cure:    a hit record of its own for the shadow ray
  * Options: --bounces 0

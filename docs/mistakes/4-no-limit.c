@@ -1,6 +1,6 @@
 /* A shadow ray without an end
  *
- * Symptom: a closed room is all black
+ * Symptom: a closed room is nearly all black
  * Cause:   what lies *behind* the lamp, the ceiling, counts as standing before it
  * Cure:    only hits nearer than the lamp: t < 1 for a direction S - P
  * Options:

@@ -1,8 +1,9 @@
 /* N x a fixed vector
  *
- * Symptom: black specks, or a whole wall without indirect light
- * Cause:   the cross product with (0,1,0) is zero on floor and ceiling, divided by
- *          its length NaN; and one NaN spoils the whole mean of its pixel
+ * Symptom: one side of the cube is black; in other scenes there are black specks
+ * Cause:   the cross product with (1,0,0) is zero where the normal is the same;
+ *          divided by its length it is NaN, and one NaN spoils the whole mean of
+ *          its pixel
  * Cure:    a basis that works for every normal (rt_basis)
  * Options:
  */
