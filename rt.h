@@ -1578,11 +1578,11 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
     s->blocker = -1;
     /* which light? the one at the end of the ray */
     const rt_vec3 end = rt_at(ray, 1.0f);
-    float nearest = FLT_MAX;
+    float least = FLT_MAX;
     for (int i = 0; i < scene->light_count; i++) {
         const float distance = rt_length(rt_sub(scene->lights[i].position, end));
-        if (distance < nearest) {
-            nearest = distance;
+        if (distance < least) {
+            least = distance;
             s->light = i;
         }
     }

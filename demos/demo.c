@@ -34,7 +34,7 @@ typedef struct settings {
     rt_sampler sampler;
     const char *out;
     bool window, quiet, help, explain;
-    int x, y; /* the pixel to explain */
+    long x, y; /* the pixel to explain */
 } settings;
 
 static void print_help(const demo *d)
@@ -118,10 +118,14 @@ static bool parse_sampler(const demo *d, const char *text, rt_sampler *sampler)
 /* X,Y: column and row of a pixel. Whether it is in the picture is asked later. */
 static bool parse_pixel(const demo *d, const char *text, settings *s)
 {
-    char comma, more;
-    s->explain = text && strspn(text, "0123456789,") == strlen(text) &&
-                 sscanf(text, "%9d%c%9d%c", &s->x, &comma, &s->y, &more) == 3 &&
-                 comma == ',';
+    char *comma = NULL, *end = NULL;
+    bool good = text && *text >= '0' && *text <= '9';
+    if (good)
+        s->x = strtol(text, &comma, 10);
+    good = good && *comma == ',' && comma[1] >= '0' && comma[1] <= '9';
+    if (good)
+        s->y = strtol(comma + 1, &end, 10);
+    s->explain = good && *end == '\0';
     if (!s->explain)
         fprintf(stderr, "%s: --explain: '%s' is not a pixel, X,Y\n", d->name,
                 text ? text : "");
@@ -205,7 +209,7 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
         if (!d->explain)
             fprintf(stderr, "%s: --explain: chapters 7 to 9 can do that\n", d->name);
         else
-            fprintf(stderr, "%s: --explain: %d,%d is not in a picture of %lld x %lld\n",
+            fprintf(stderr, "%s: --explain: %ld,%ld is not in a picture of %lld x %lld\n",
                     d->name, s->x, s->y, s->width, s->height);
         return false;
     }
@@ -681,10 +685,10 @@ static int explain(run *r)
     if (options.samples == 0)
         options.samples = r->d->samples;
     if (!r->s.quiet)
-        printf("%s: pixel %d,%d of %lld x %lld, %d sample%s, %lld bounce%s\n", r->d->name,
-               r->s.x, r->s.y, r->s.width, r->s.height, options.samples,
+        printf("%s: pixel %ld,%ld of %lld x %lld, %d sample%s, %lld bounce%s\n",
+               r->d->name, r->s.x, r->s.y, r->s.width, r->s.height, options.samples,
                plural(options.samples), r->s.bounces, plural(r->s.bounces));
-    const rt_status status = r->d->explain(&options, &r->image, r->s.x, r->s.y);
+    const rt_status status = r->d->explain(&options, &r->image, (int)r->s.x, (int)r->s.y);
     if (status != RT_OK)
         fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status));
     return status == RT_OK ? DONE : FAILED;

@@ -20,7 +20,7 @@ static int workers;
 
 /* The light along one path through pixel i: direct, and by one bounce. Its four numbers come
  * from draw(&rng). */
-static rt_vec3 path(int i, float (*draw)(rt_rng *rng), rt_rng rng)
+static rt_vec3 follow(int i, float (*draw)(rt_rng *rng), rt_rng rng)
 {
     const float dx = draw(&rng);
     const float dy = draw(&rng);
@@ -41,7 +41,7 @@ static rt_vec3 path(int i, float (*draw)(rt_rng *rng), rt_rng rng)
 /* With numbers that are a function of pixel and sample, as in chapter 7. */
 static rt_vec3 trace(int i, int k)
 {
-    return path(i, rt_random, rt_rng_start((uint32_t)i, (uint32_t)k, 0));
+    return follow(i, rt_random, rt_rng_start((uint32_t)i, (uint32_t)k, 0));
 }
 
 /* With those of rand(), whose one state, behind a lock, serves all threads. */
@@ -54,7 +54,7 @@ static float from_rand(rt_rng *rng)
 
 static rt_vec3 trace_by_rand(int i)
 {
-    return path(i, from_rand, rt_rng_start(0, 0, 0));
+    return follow(i, from_rand, rt_rng_start(0, 0, 0));
 }
 
 /* What is left of any of the loops where the compiler does not know OpenMP. */
