@@ -101,7 +101,7 @@ check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windo
 bench: ## speed against the report's way and other renderers, about a minute
 	@CC='$(CC)' CXX='$(CXX)' CFLAGS='$(CFLAGS)' OPENMP='$(OPENMP)' BUILD='$(BUILD)' tests/bench/run
 
-docs: $(DEMOS:%=$(BUILD)/%) ## put excerpts and pictures into docs/ and README.md
+docs: $(DEMOS:%=$(BUILD)/%) ## renew excerpts and pictures in docs/; build/site/index.html and build/rt.pdf
 	@for demo in $(DEMOS); do \
 	    $(BUILD)/$$demo --no-window --quiet --out docs/images/$$demo.png || exit; \
 	done
@@ -112,6 +112,7 @@ docs: $(DEMOS:%=$(BUILD)/%) ## put excerpts and pictures into docs/ and README.m
 	done
 	docs/excerpts.sh README.md docs/*.md
 	docs/gallery.sh
+	docs/site.sh
 
 install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR
 	install -d -m 755 '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'

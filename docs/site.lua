@@ -1,0 +1,49 @@
+-- GitHub's way to write formulas and links, for pandoc: see docs/site.sh.
+
+function CodeBlock(block)
+    if block.classes[1] == "math" then
+        return pandoc.Para({ pandoc.Math("DisplayMath", block.text) })
+    end
+end
+
+function Inlines(list) -- $`...`$ is a Str that ends in $, a Code, and a Str that begins with $
+    for i = #list - 1, 2, -1 do
+        local before, code, after = list[i - 1], list[i], list[i + 1]
+        if code.t == "Code" and before.t == "Str" and after.t == "Str" and
+            before.text:sub(-1) == "$" and after.text:sub(1, 1) == "$" then
+            before.text = before.text:sub(1, -2)
+            after.text = after.text:sub(2)
+            list[i] = pandoc.Math("InlineMath", code.text)
+        end
+    end
+    return list
+end
+
+-- README.md becomes index.html, docs/NAME.md NAME.html; all other files keep their places.
+local function moved(target)
+    if target:match("^%a+:") or target:match("^#") then
+        return target
+    end
+    if not target:match("^%.%./") and not target:match("^docs/") and PANDOC_STATE.input_files[1] ~= "README.md" then
+        target = "docs/" .. target
+    end
+    target = target:gsub("^%.%./", "")
+    target = target:gsub("^README%.md", "index.html")
+    target = target:gsub("^docs/([%w%-]+)%.md", "%1.html")
+    return (target:gsub("^docs/images/", "images/"))
+end
+
+function Link(link)
+    link.target = moved(link.target)
+    return link
+end
+
+function Image(image)
+    image.src = moved(image.src)
+    return image
+end
+
+function RawInline(raw) -- <img src="...">
+    raw.text = raw.text:gsub('src="([^"]*)"', function(src) return 'src="' .. moved(src) .. '"' end)
+    return raw
+end

@@ -1,0 +1,60 @@
+#!/bin/sh
+# The documentation as a site, build/site/index.html, and as one document to print,
+# build/rt.pdf: by pandoc and chromium, without a script in the pages and without the network.
+command -v pandoc >/dev/null ||
+    { echo "note: pandoc is missing (Debian: apt-get install pandoc): no site, no PDF"; exit 0; }
+site=${BUILD:-build}/site
+chapters="01-sphere 02-walls 03-cube 04-shadows 05-gamma 06-mirror 07-monte-carlo 08-faster 09-less-noise"
+others="mistakes words report teaching performance correctness"
+rm -rf "$site"
+mkdir -p "$site" || exit 1
+cp -r docs/images docs/site.css "$site" || exit 1
+
+# What the pages link to in the repository.
+sed -n 's/.*\](\(\.\.\/[^)#]*\).*/\1/p; s/.*\](\(mistakes\/[^)#]*\).*/docs\/\1/p' docs/*.md README.md |
+    sed 's/^\.\.\///' | sort -u | while read -r file; do
+    case $file in docs/*.md | README.md | *..*) ;; *) [ -e "$file" ] && mkdir -p "$site/$(dirname "$file")" &&
+        cp -r "$file" "$site/$(dirname "$file")/" ;; esac
+done
+cp rt.h LICENSE CHANGELOG.md "$site" && mkdir -p "$site/docs" && cp -r docs/mistakes "$site/docs/" || exit 1
+
+page() { # SOURCE TARGET
+    title=$(sed -n '1s/^# //p' "$1")
+    pandoc -f gfm-tex_math_dollars -t html5 -s --mathml --lua-filter docs/site.lua --css site.css \
+        --metadata pagetitle="$title - rt.h" --metadata lang=en -o "$site/$2" "$1" || exit 1
+}
+page README.md index.html
+for name in $chapters $others; do
+    page "docs/$name.md" "$name.html"
+done
+
+# All of it, to print; the links between the pages become links within.
+for name in $chapters $others; do
+    pandoc -f gfm-tex_math_dollars -t html5 --mathml --lua-filter docs/site.lua \
+        --id-prefix "$name-" "docs/$name.md" |
+        sed -e "s/href=\"#/href=\"#$name-/g" -e "s/<h1 /<a id=\"$name\"><\/a><h1 /" \
+            -e 's/href="\([0-9a-z-]*\)\.html#/href="#\1-/g' -e 's/href="\([0-9a-z-]*\)\.html"/href="#\1"/g' \
+            -e '/^<p>Previous: /,/<\/p>$/d'
+done >"$site/body.html"
+pandoc -f html -t html5 -s --mathml --css site.css --metadata pagetitle="rt.h" --metadata lang=en \
+    /dev/null -o "$site/frame.html" || exit 1
+{
+    sed '/<body>/q' "$site/frame.html"
+    cat "$site/body.html"
+    echo '</body></html>'
+} >"$site/print.html"
+rm "$site/body.html" "$site/frame.html"
+echo "$site/index.html"
+
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
+    { echo "note: chromium is missing (Debian: apt-get install chromium): no PDF"; exit 0; }
+root=$([ "$(id -u)" = 0 ] && echo --no-sandbox)
+profile=$(mktemp -d) || exit 1
+"$chromium" --headless --disable-gpu $root --user-data-dir="$profile" --no-first-run \
+    --disable-background-networking --disable-component-update --disable-sync \
+    --no-pdf-header-footer --print-to-pdf="${BUILD:-build}/rt.pdf" "file://$(cd "$site" && pwd)/print.html" \
+    >"$profile/log" 2>&1 && [ -s "${BUILD:-build}/rt.pdf" ] && echo "${BUILD:-build}/rt.pdf"
+status=$?
+[ $status = 0 ] || tail -5 "$profile/log"
+rm -rf "$profile"
+exit $status
