@@ -40,6 +40,11 @@ pandoc -f html -t html5 -s --mathml --css site.css --metadata pagetitle="rt.h" -
     /dev/null -o "$site/frame.html" || exit 1
 {
     sed '/<body>/q' "$site/frame.html"
+    echo '<header><p class="title">rt.h</p><p>A small ray tracer in one C header, and its textbook.</p><ul>'
+    for name in $chapters $others; do
+        echo "<li><a href=\"#$name\">$(sed -n '1s/^# //p' "docs/$name.md")</a></li>"
+    done
+    echo '</ul></header>'
     cat "$site/body.html"
     echo '</body></html>'
 } >"$site/print.html"
