@@ -70,7 +70,7 @@ $(BUILD)/tests/%: tests/%.c $(wildcard tests/*.h) $(HEADERS) $(wildcard demos/de
 
 # --------------------------------------------------------------------------- the classroom
 
-export SEED ONLY OUT
+export FILE SEED ONLY OUT
 
 starters: ## files to begin with, one for each routine, in build/starters
 	@tests/classroom/starter $(BUILD)/starters
@@ -79,10 +79,10 @@ starters: ## files to begin with, one for each routine, in build/starters
 try: $(BUILD)/demo.o ## your own routine in place of rt.h's: FILE=my_hit_sphere.c
 	@.ci/deps found '$(CC)' cmocka libcjson
 	@CC='$(CC)' FLAGS='$(FLAGS) $(OPENMP)' LIBS='$(LDFLAGS) $(SDL_LIBS)' BUILD='$(BUILD)' \
-	    tests/classroom/run try '$(FILE)' $(ARGS)
+	    tests/classroom/run try "$$FILE" $(ARGS)
 
 grade: ## marks for a file or a folder: FILE=submissions SEED=7 ONLY=rt_hit_sphere OUT=marks.csv
-	@CC='$(CC)' BUILD='$(BUILD)' tests/classroom/run grade '$(FILE)'
+	@CC='$(CC)' BUILD='$(BUILD)' tests/classroom/run grade "$$FILE"
 
 # -------------------------------------------------------------------- the tests, once more
 

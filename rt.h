@@ -1451,7 +1451,7 @@ typedef struct rt_shadow {
 } rt_shadow;
 
 /* All that happened to one sample of a pixel. The arrays are yours; say how long they are.
- * What has no place in them is left out, but counted. There is at most one vertex more
+ * What does not fit is dropped, but still counted. There is at most one vertex more
  * than bounces, and for each as many shadows as there are lights. */
 typedef struct rt_path {
     rt_vertex *vertices;
@@ -1464,15 +1464,16 @@ typedef struct rt_path {
 } rt_path;
 
 /* Follow one sample of the pixel (x, y) of the image once more, and write it down:
- * path->value is, to the bit, what rt_render with the same arguments adds to the pixel for
- * this sample. Samples count from 0. The image is not changed; of it only the size counts,
+ * path->value is, to the bit, what rt_render with the same arguments makes of this sample;
+ * the pixel is its running mean, mean += (value - mean) / (sample + 1). Samples count
+ * from 0. The image is not changed; of it only the size counts,
  * and whether it has a half.
  *
  * What is written down are the questions that rt_radiance asks of the scene, by
  * rt_intersect and rt_occluded - or a routine of yours in their place, as long as it asks
  * by these two. So nothing is slower where nobody looks.
  *
- * What rt_render says about bad arguments, or RT_BAD_PIXEL; *path is then untouched. */
+ * Returns the same errors as rt_render, or RT_BAD_PIXEL; *path is then untouched. */
 RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
                                const rt_options *options, const rt_image *image, int x,
                                int y, int sample, rt_path *path);

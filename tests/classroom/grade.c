@@ -5,8 +5,8 @@
  *
  * PATH is a file of one submission or a folder of many: each file NAME.c, or each folder NAME with
  * files in it, is one. --try is for the student: one file, and every kind of input is listed.
- * Exit status: 0 if all was marked, with --try if all is right; 1 with --try if something is wrong;
- * 2 wrong use, or nothing could be marked. */
+ * Exit status: 0 if all was marked, with --try if all is right; 1 with --try if something is wrong,
+ * 3 if it crashes or does not end; 2 wrong use, or nothing could be marked. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <stdlib.h>
@@ -33,6 +33,7 @@ typedef struct marks {
     char name[LONGEST];
     int good[CHAPTERS], all[CHAPTERS]; /* kinds of input, by chapter */
     bool handed_in[ROUTINES];
+    bool dangerous; /* it crashed or did not end */
 } marks;
 
 /* ---- one routine ------------------------------------------------------------------------- */
@@ -55,9 +56,40 @@ static bool close_enough(const float *actual, const float *expected, int count)
     return true;
 }
 
+/* The names of the fields that are wrong. */
+static void print_differences(const field *fields, const float *actual,
+                              const float *expected)
+{
+    const char *before = "         wrong: ";
+    for (int i = 0; i < MAX_FIELDS && fields[i].name; i++) {
+        if (!close_enough(actual, expected, fields[i].size)) {
+            printf("%s%s", before, fields[i].name);
+            before = ", ";
+        }
+        actual += fields[i].size;
+        expected += fields[i].size;
+    }
+    printf("\n");
+}
+
+/* Is this routine to be marked? */
+static bool wanted(const char *name)
+{
+    const char *at = options.only;
+    const size_t n = strlen(name);
+    if (!at)
+        return true;
+    while ((at = strstr(at, name)) != NULL) {
+        if ((at == options.only || at[-1] == ',') && (at[n] == ',' || at[n] == '\0'))
+            return true;
+        at += n;
+    }
+    return false;
+}
+
 /* What became of a kind of input. Where one answer is right for all inputs (every ray misses),
  * a routine that does nothing may know it, and that is no merit by itself. */
-typedef enum verdict { WRONG, NO_END, RIGHT, RIGHT_BY_DOING_NOTHING } verdict;
+typedef enum verdict { WRONG, CRASHED, NO_END, RIGHT, RIGHT_BY_DOING_NOTHING } verdict;
 
 /* Ask the program all inputs of a kind, and tell what is wrong with the first bad answer. */
 static verdict ask(const char *program, const routine *r, const kind *q, const char *who,
@@ -84,9 +116,10 @@ static verdict ask(const char *program, const routine *r, const kind *q, const c
                     .out = (char *)out,
                     .out_size = (size_t)(count * outs) * sizeof *out};
     fflush(stdout);
-    int wrong = run_task(&t, why, sizeof why) ? count : -1;
+    const bool ended = run_task(&t, why, sizeof why);
+    int wrong = ended ? count : -1;
     float expected[MAX_OUT], first[MAX_OUT];
-    bool same = !q->judge || q->judge == judge_again;
+    bool same = !q->judge || q->judge == judge_again || q->judge == judge_side;
     if (wrong == count && q->judge)
         wrong = q->judge(in, out, count, why, sizeof why);
     else if (wrong == count)
@@ -114,12 +147,16 @@ static verdict ask(const char *program, const routine *r, const kind *q, const c
         if (!q->judge || q->judge == judge_encode) {
             printf("         right: ");
             print_fields(r->out, expected);
+            if (!q->judge)
+                print_differences(r->out, out + wrong * outs, expected);
         }
     }
     free(in);
     free(out);
+    if (!good && !ended)
+        return strncmp(why, "no end", 6) == 0 ? NO_END : CRASHED;
     if (!good)
-        return strncmp(why, "no end", 6) == 0 ? NO_END : WRONG;
+        return WRONG;
     return same ? RIGHT_BY_DOING_NOTHING : RIGHT;
 }
 
@@ -194,22 +231,22 @@ static int find_routines(const char *defines, bool *found)
     return count;
 }
 
-static bool compile(const char *how, const char *log)
+static bool compile(const char *how, const char *log, char *why, size_t size)
 {
-    char command[2000], why[200];
+    char command[2000];
     snprintf(command, sizeof command,
              "exec %s -std=c99 -O1 -ffp-contract=off %s -I. "
              "'-DSUBMISSION=\"%s/submission.c\"' %s",
              options.cc, options.trying ? "-Wall" : "-w", options.folder, how);
     char *const argv[] = {"sh", "-c", command, NULL};
     const task t = {.argv = argv, .log = log, .seconds = 60};
-    return run_task(&t, why, sizeof why);
+    return run_task(&t, why, size);
 }
 
 static void mark_file(const char *path, const char *who, marks *m)
 {
-    char to[LONGEST + 40], log[LONGEST + 40], program[LONGEST + 40], how[2 * LONGEST],
-        why[200];
+    char to[LONGEST + 40], log[LONGEST + 40], program[LONGEST + 40], check[LONGEST + 40],
+        how[2 * LONGEST], why[200];
     bool found[ROUTINES] = {false};
     snprintf(to, sizeof to, "%s/submission.c", options.folder);
     snprintf(log, sizeof log, "%s/log", options.folder);
@@ -221,8 +258,8 @@ static void mark_file(const char *path, const char *who, marks *m)
         return;
     }
     snprintf(how, sizeof how, "-E -dM %s", to);
-    compile(how, log);
-    if (find_routines(log, found) == 0) {
+    const bool read = compile(how, log, why, sizeof why);
+    if (find_routines(log, found) == 0 && read) {
         printf(
             "%s: replaces nothing: there is no line like #define rt_reflect my_reflect\n",
             who);
@@ -235,16 +272,37 @@ static void mark_file(const char *path, const char *who, marks *m)
         found[i] = found[i] && !m->handed_in[i];
         m->handed_in[i] = m->handed_in[i] || found[i];
     }
+    /* Where the line comes before rt.h, there is no rt_reflect of rt.h's, and the name is free. */
+    snprintf(check, sizeof check, "%s/check.c", options.folder);
+    FILE *file = fopen(check, "w");
+    if (file) {
+        fprintf(file, "#include \"submission.c\"\n");
+        for (int i = 0; i < ROUTINES; i++)
+            if (found[i])
+                fprintf(file, "#undef %s\ntypedef int %s;\n", routines[i].name,
+                        routines[i].name);
+        fclose(file);
+    }
+    snprintf(how, sizeof how, "-fsyntax-only %s", check);
+    const bool free_names = compile(how, log, why, sizeof why);
     snprintf(how, sizeof how, "%s -o %s tests/classroom/pupil.c -lm", STATIC, program);
-    if (!compile(how, log)) {
-        printf("%s: does not compile\n", who);
+    if (!compile(how, log, why, sizeof why)) {
+        printf("%s: does not compile%s%s\n", who,
+               strncmp(why, "no end", 6) == 0 ? ": " : "",
+               strncmp(why, "no end", 6) == 0 ? why : "");
         show_log(log);
+        return;
+    }
+    if (!free_names) {
+        printf("%s: #define rt_... must come before #include \"rt.h\", and name a "
+               "function of yours\n",
+               who);
         return;
     }
     if (options.trying)
         show_log(log); /* warnings */
     for (int i = 0; i < ROUTINES; i++) {
-        if (!found[i] || (options.only && !strstr(options.only, routines[i].name)))
+        if (!found[i] || !wanted(routines[i].name))
             continue;
         if (options.trying)
             printf("%s, chapter %d\n", routines[i].name, routines[i].chapter);
@@ -253,7 +311,8 @@ static void mark_file(const char *path, const char *who, marks *m)
             if (strcmp(kinds[k].routine, routines[i].name) == 0) {
                 const verdict v = ask(program, &routines[i], &kinds[k], who,
                                       options.trying || wrong == 0);
-                wrong += v == WRONG || v == NO_END;
+                wrong += v == WRONG || v == CRASHED || v == NO_END;
+                m->dangerous = m->dangerous || v == CRASHED || v == NO_END;
                 if (v == NO_END)
                     break; /* the rest would take as long */
                 right += v == RIGHT;
@@ -275,14 +334,19 @@ static int visible_names(const struct dirent *entry)
     return entry->d_name[0] != '.';
 }
 
+static bool is_folder(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
 /* A file, or all files in the folder of one student. */
 static void mark_submission(const char *path, const char *name, marks *m)
 {
-    struct stat info;
     memset(m, 0, sizeof *m);
     snprintf(m->name, sizeof m->name, "%s", name);
     name = printable(m->name);
-    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode)) {
+    if (is_folder(path)) {
         struct dirent **files;
         const int count = scandir(path, &files, only_c, alphasort);
         if (count <= 0)
@@ -302,8 +366,7 @@ static void mark_submission(const char *path, const char *name, marks *m)
     for (int k = 0; k < KINDS; k++)
         for (int i = 0; i < ROUTINES; i++)
             if (strcmp(kinds[k].routine, routines[i].name) == 0 &&
-                (m->handed_in[i] ||
-                 (options.only && strstr(options.only, routines[i].name))))
+                wanted(routines[i].name) && (m->handed_in[i] || options.only))
                 m->all[routines[i].chapter]++;
 }
 
@@ -344,10 +407,26 @@ static void print_quoted(FILE *file, const char *text)
     putc('"', file);
 }
 
+/* Can the table be written? Asked before the work is done. */
+static bool can_write_csv(void)
+{
+    struct stat info;
+    char part[LONGEST + 30];
+    if (stat(options.csv, &info) == 0 && !S_ISREG(info.st_mode))
+        return errno = EINVAL, false;
+    snprintf(part, sizeof part, "%s.%d", options.csv, (int)getpid());
+    FILE *file = fopen(part, "w");
+    if (file)
+        fclose(file);
+    unlink(part);
+    return file != NULL;
+}
+
+/* An existing table is replaced by a complete new one. */
 static bool write_csv(const marks *m, int count)
 {
-    char part[LONGEST + 10];
-    snprintf(part, sizeof part, "%s.part", options.csv);
+    char part[LONGEST + 30];
+    snprintf(part, sizeof part, "%s.%d", options.csv, (int)getpid());
     FILE *file = fopen(part, "w");
     if (!file)
         return false;
@@ -362,7 +441,10 @@ static bool write_csv(const marks *m, int count)
         fprintf(file, "\n");
     }
     const bool good = !ferror(file);
-    return (fclose(file) == 0) & good && rename(part, options.csv) == 0;
+    if ((fclose(file) == 0) & good && rename(part, options.csv) == 0)
+        return true;
+    unlink(part);
+    return false;
 }
 
 /* ---- the program ------------------------------------------------------------------------- */
@@ -391,7 +473,7 @@ static void check_machine(void)
                     .in_size = sizeof in,
                     .out = (char *)out,
                     .out_size = sizeof out};
-    if (!compile(how, log)) {
+    if (!compile(how, log, why, sizeof why)) {
         fprintf(stderr, "grade: %s cannot compile rt.h itself here:\n", options.cc);
         show_log(log);
         exit(2);
@@ -415,10 +497,16 @@ static bool parse(int argc, char **argv, const char **path)
         char *end = "";
         if (strcmp(argv[i], "--try") == 0)
             options.trying = true;
-        else if (strcmp(argv[i], "--seed") == 0 && i + 1 < argc &&
-                 argv[i + 1][0] >= '0' && argv[i + 1][0] <= '9')
-            options.seed = (uint32_t)strtoul(argv[++i], &end, 10);
-        else if (strcmp(argv[i], "--only") == 0 && i + 1 < argc)
+        else if (strcmp(argv[i], "--seed") == 0 && i + 1 < argc) {
+            const char *text = argv[++i];
+            const unsigned long long seed = strtoull(text, &end, 10);
+            if (*text < '0' || *text > '9' || *end || seed > UINT32_MAX)
+                return fprintf(stderr,
+                               "grade: --seed: '%s' is not a number up to 4294967295\n",
+                               text),
+                       false;
+            options.seed = (uint32_t)seed;
+        } else if (strcmp(argv[i], "--only") == 0 && i + 1 < argc)
             options.only = argv[++i];
         else if (strcmp(argv[i], "--csv") == 0 && i + 1 < argc)
             options.csv = argv[++i];
@@ -428,10 +516,19 @@ static bool parse(int argc, char **argv, const char **path)
             *path = argv[i];
         else
             return fprintf(stderr, "grade: what is '%s'?\n", argv[i]), false;
-        if (*end)
-            return fprintf(stderr, "grade: --seed: '%s' is not a number\n", argv[i]),
-                   false;
     }
+    int known = 0;
+    for (int i = 0; i < ROUTINES; i++)
+        known += options.only && wanted(routines[i].name);
+    int names = options.only ? 1 : 0;
+    for (const char *c = options.only; c && *c; c++)
+        names += *c == ',';
+    if (known != names)
+        return fprintf(
+                   stderr,
+                   "grade: --only: '%s': names like rt_lambert, with commas between\n",
+                   options.only),
+               false;
     if (!*path || !**path || !options.folder)
         return fprintf(stderr,
                        "grade: which file, or folder of files? (make grade FILE=...)\n"),
@@ -452,6 +549,10 @@ int main(int argc, char **argv)
         return 2;
     if (stat(path, &info) != 0)
         return fprintf(stderr, "grade: %s: %s\n", path, strerror(errno)), 2;
+    if (options.csv && !can_write_csv())
+        return fprintf(stderr, "grade: cannot write %s: %s\n", options.csv,
+                       strerror(errno)),
+               2;
     if (options.trying && !S_ISREG(info.st_mode))
         return fprintf(stderr, "grade: %s: %s, not a file\n", path,
                        S_ISDIR(info.st_mode) ? "a folder" : "something else"),
@@ -472,6 +573,11 @@ int main(int argc, char **argv)
         const char *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
         snprintf(inner, sizeof inner, entries ? "%s/%s" : "%s", path,
                  entries ? entries[i]->d_name : "");
+        if (entries && !only_c(entries[i]) && !is_folder(inner)) {
+            printf("%s: left out, its name does not end in .c\n",
+                   printable(entries[i]->d_name));
+            continue;
+        }
         mark_submission(inner, entries ? entries[i]->d_name : name, &m[n]);
         for (int c = 1; c < CHAPTERS; c++)
             right = right && m[n].good[c] == m[n].all[c];
@@ -480,8 +586,10 @@ int main(int argc, char **argv)
     int asked = 0;
     for (int c = 1; c < CHAPTERS; c++)
         asked += m[0].all[c];
+    if (options.trying && right && asked > 0)
+        return printf("all right\n"), 0;
     if (options.trying)
-        return right && asked > 0 ? (printf("all right\n"), 0) : 1;
+        return m[0].dangerous ? 3 : 1;
     print_table(m, n);
     if (options.csv && !write_csv(m, n))
         return fprintf(stderr, "grade: cannot write %s: %s\n", options.csv,

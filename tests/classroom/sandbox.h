@@ -106,6 +106,9 @@ static inline bool confine(void)
         REFUSE(prlimit64),
         REFUSE(ioctl),
         REFUSE(lseek),
+        ALLOW(getpid),
+        ALLOW(gettid),
+        REFUSE(tgkill), /* abort() */
         BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
     };
     const struct sock_fprog program = {sizeof rules / sizeof rules[0], rules};
@@ -169,6 +172,16 @@ static inline size_t converse(const task *t, int to, int from, double deadline)
     return got;
 }
 
+/* What runs now, to be ended with us: it has a session of its own, and no terminal ends it. */
+static volatile pid_t running;
+
+static inline void end_both(int signal_number)
+{
+    if (running > 0)
+        kill(-running, SIGKILL);
+    _exit(128 + signal_number);
+}
+
 /* True if the program ended well and said as much as it should; if not, why says why. */
 static inline bool run_task(const task *t, char *why, size_t size)
 {
@@ -177,9 +190,12 @@ static inline bool run_task(const task *t, char *why, size_t size)
     if (pipe(in) != 0 || pipe(out) != 0)
         return snprintf(why, size, "cannot make a pipe: %s", strerror(errno)), false;
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGINT, end_both);
+    signal(SIGTERM, end_both);
     const pid_t child = fork();
     if (child == 0)
         become(t, in[0], out[1]);
+    running = child;
     close(in[0]);
     close(out[1]);
     const double deadline = clock_seconds() + t->seconds;
