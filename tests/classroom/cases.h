@@ -713,8 +713,8 @@ static int judge_cosine(const float *in, const float *out, int count, char *why,
         both[8 * bin_of(z * z, 8) + bin_of(turn, 8)]++;
     }
     if (surprise(height, 32, count) > LIMIT)
-        return snprintf(why, size, "too many directions are %s",
-                        height[31] < count / 40 ? "flat" : "steep"),
+        return snprintf(why, size, "too many directions are near the %s",
+                        height[31] < count / 40 ? "surface" : "normal"),
                -1;
     if (surprise(around, 32, count) > LIMIT)
         return snprintf(why, size, "not the same all around the normal"), -1;
