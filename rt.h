@@ -1196,8 +1196,8 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
             first = item < first ? item : first;
         }
         if (count > before) {
-            /* waiting[before] is UINT64_MAX, for which there is no use: what was last goes
-             * there, and the nearest comes last, to be taken first */
+            /* waiting[before] is UINT64_MAX, for which there is no use: what was last
+             * goes there, and the nearest comes last, to be taken first */
             waiting[before] = waiting[count - 1];
             waiting[count - 1] = first;
         }
@@ -1426,8 +1426,9 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
  * tells its variance: (A - M)^2 n_even / n_odd. One pixel tells little, thousands tell it
  * well. With image->half, rt_render keeps A there and takes even and odd samples from two
  * sequences of their own. (That costs a little: with RT_SOBOL each half is even in
- * itself, both together less so.) Error from too few bounces is not noise and not in it. 0 for a black image,
- * INFINITY, that is unknown, with less than 2 samples or without half. */
+ * itself, both together less so.) Error from too few bounces is not noise and not in it.
+ * 0 for a black image, INFINITY, that is unknown, with less than 2 samples or without
+ * half. */
 RTDEF float rt_image_error(const rt_image *image);
 
 /* One point of a path: the ray that was followed, and what it met. */
@@ -1450,8 +1451,8 @@ typedef struct rt_shadow {
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
 } rt_shadow;
 
-/* All that happened to one sample of a pixel. The arrays are yours; say how long they are.
- * What does not fit is dropped, but still counted. There is at most one vertex more
+/* All that happened to one sample of a pixel. The arrays are yours; say how long they
+ * are. What does not fit is dropped, but still counted. There is at most one vertex more
  * than bounces, and for each as many shadows as there are lights. */
 typedef struct rt_path {
     rt_vertex *vertices;
@@ -1464,9 +1465,9 @@ typedef struct rt_path {
 } rt_path;
 
 /* Follow one sample of the pixel (x, y) of the image once more, and write it down:
- * path->value is, to the bit, what rt_render with the same arguments makes of this sample;
- * the pixel is its running mean, mean += (value - mean) / (sample + 1). Samples count
- * from 0. The image is not changed; of it only the size counts,
+ * path->value is, to the bit, what rt_render with the same arguments makes of this
+ * sample; the pixel is its running mean, mean += (value - mean) / (sample + 1). Samples
+ * count from 0. The image is not changed; of it only the size counts,
  * and whether it has a half.
  *
  * What is written down are the questions that rt_radiance asks of the scene, by
@@ -1488,8 +1489,8 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
  * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
 RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
 
-/* Give the memory back; *bvh is all zero afterwards, so set scene->bvh = NULL. NULL or all
- * zero: does nothing. */
+/* Give the memory back; *bvh is all zero afterwards, so set scene->bvh = NULL. NULL or
+ * all zero: does nothing. */
 RTDEF void rt_free_bvh(rt_bvh *bvh);
 
 /* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15,
@@ -2011,9 +2012,9 @@ static inline rt__shape rt__shape_of(const rt_scene *scene, int number)
     return shape;
 }
 
-/* Up to so many shapes packets ask one by one, without the tree; if their numbers are neither
- * so large that their squares are too much for float, nor so small that a ray which
- * leaves one, see rt_leave, is on the other side of it already. */
+/* Up to so many shapes packets ask one by one, without the tree; if their numbers are
+ * neither so large that their squares are too much for float, nor so small that a ray
+ * which leaves one, see rt_leave, is on the other side of it already. */
 enum { RT__FEW = 64 };
 #define RT__MODERATE 1e7f
 
@@ -3143,7 +3144,7 @@ RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
 #endif
 
 /* rt_intersect and rt_occluded, one ray after the other, each on its own way through the
- * tree, and eight boxes at a time: for scenes with many shapes, and for lanes in doubt. */
+ * tree, eight boxes at a time: for scenes with many shapes, and for lanes in doubt. */
 static __attribute__((noinline)) void
 rt__find_in_tree(const rt_scene *scene, const rt__rays *r, rt__m lanes, rt__hits *hits)
 {
