@@ -112,6 +112,7 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew excerpts and pictures in docs/; build/site/
 	done
 	docs/excerpts.sh README.md docs/*.md
 	docs/gallery.sh
+	tests/classroom/session --docs
 	docs/site.sh
 
 install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR
