@@ -101,7 +101,7 @@ check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windo
 bench: ## speed against the report's way and other renderers, about a minute
 	@CC='$(CC)' CXX='$(CXX)' CFLAGS='$(CFLAGS)' OPENMP='$(OPENMP)' BUILD='$(BUILD)' tests/bench/run
 
-docs: $(DEMOS:%=$(BUILD)/%) ## renew excerpts and pictures in docs/; build/site/index.html and build/rt.pdf
+docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/site/index.html, build/rt.pdf
 	@for demo in $(DEMOS); do \
 	    $(BUILD)/$$demo --no-window --quiet --out docs/images/$$demo.png || exit; \
 	done
@@ -110,7 +110,8 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew excerpts and pictures in docs/; build/site/
 	    $(BUILD)/demo09 320 240 --sampler $$sampler --no-window --quiet \
 	        --out docs/images/demo09-$$sampler.png || exit; \
 	done
-	docs/excerpts.sh README.md docs/*.md
+	docs/numbers.sh
+	docs/renew.sh README.md docs/*.md
 	docs/gallery.sh
 	tests/classroom/session --docs
 	docs/site.sh
