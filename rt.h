@@ -583,7 +583,7 @@ static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
  * Chapter 2. Scenes, the nearest hit, Lambert's law
  * ==================================================================================== */
 
-/* An axis-aligned box, explained in chapter 3; a light, explained in chapter 4. */
+/* An axis-aligned box, explained in chapter 3. */
 typedef struct rt_box {
     rt_vec3 min, max; /* two opposite corners, min <= max in each of x, y, z */
     rt_material material;
@@ -1593,6 +1593,7 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
     s->dd = rt_dot(to_light, to_light);
     s->cosine = rt_dot(v->hit.normal, to_light) / sqrtf(s->dd);
     rt_hit between;
+    memset(&between, 0, sizeof between); /* an rt_intersect of your own may leave it so */
     if (!blocked) {
         s->light_sent = rt_lambert(v->hit.material->albedo, v->hit.normal, to_light,
                                    light->intensity);

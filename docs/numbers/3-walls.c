@@ -73,5 +73,8 @@ int main(void)
     const rt_ray middle = {{28.5f, -11, 60}, back};
     rt_hit hit;
     hit_turned(&room_cube, 30 / 360.0f, &middle, &hit);
-    printf("N: (%.3g, %g, %.3g)\n", hit.normal.x, hit.normal.y, hit.normal.z);
+    const float t = hit.t;
+    const rt_ray right = {{30.5f, -11, 60}, back};
+    hit_turned(&room_cube, 30 / 360.0f, &right, &hit);
+    printf("slope: %.3f\n", hit.normal.x > 0 ? hit.t - t : t - hit.t);
 }

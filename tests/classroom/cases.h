@@ -79,6 +79,12 @@ static void camera_sizes(float *in, int k, uint32_t *state)
                k % 2 == 0 ? 480 : 303, state);
 }
 
+static void camera_defaults(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_camera(in, rt_vec(0, 0, 0), rt_vec(0, 0, 0), 0, 320, 240, state);
+}
+
 static void camera_anywhere(float *in, int k, uint32_t *state)
 {
     const rt_vec3 direction = any_direction(state);
@@ -759,6 +765,7 @@ static const kind kinds[] = {
     {"rt_camera_ray", "other angles of view", camera_angles, NULL, 0},
     {"rt_camera_ray", "wide and high pictures", camera_sizes, NULL, 0},
     {"rt_camera_ray", "looks anywhere", camera_anywhere, NULL, 0},
+    {"rt_camera_ray", "zeros: the defaults", camera_defaults, NULL, 0},
     {"rt_hit_sphere", "hits from outside", sphere_hit, NULL, 0},
     {"rt_hit_sphere", "directions of any length", sphere_long, NULL, 0},
     {"rt_hit_sphere", "passes by", sphere_miss, NULL, 0},
