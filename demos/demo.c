@@ -54,7 +54,7 @@ static void print_help(const demo *d)
         "  --seed N      another seed, another noise (default 0)\n"
         "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
         "                or %s.png where there is no folder build)\n"
-        "  --explain X,Y print what happens in this pixel, and nothing else (chapters 7 to 9)\n"
+        "  --explain X,Y only print what happens in this pixel (chapters 7 to 9)\n"
         "  --no-window   only render and write\n"
         "  --quiet       print nothing but errors\n"
         "  --help        this\n\n"
