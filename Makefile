@@ -15,8 +15,9 @@ FLAGS    = -std=c99 $(CPPFLAGS) $(CFLAGS) -ffp-contract=off $(WARNINGS)
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
 OPENMP   = $(eval OPENMP := $(shell .ci/deps openmp '$(CC)'))$(OPENMP)
 STB      = $(shell .ci/deps stb '$(CC)')
-SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 2>/dev/null))
-SDL_LIBS = $(shell pkg-config --libs sdl2 2>/dev/null)
+GFX      = $(shell pkg-config --exists SDL2_gfx 2>/dev/null && echo SDL2_gfx)
+SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 $(GFX) 2>/dev/null)) $(GFX:%=-DHAVE_GFX)
+SDL_LIBS = $(shell pkg-config --libs sdl2 $(GFX) 2>/dev/null)
 CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 
 # Threads that wait should sleep: else, where other programs run, they take the core from
@@ -24,7 +25,7 @@ CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 export OMP_WAIT_POLICY ?= passive
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09
-HEADERS  = rt.h demos/demo.h demos/scene.h demos/explain.h demos/loops.h demos/noise.h
+HEADERS  = rt.h demos/demo.h demos/window.h demos/live.h demos/scene.h demos/explain.h demos/loops.h demos/noise.h
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 .PHONY: help deps demos test golden check bench docs starters try grade install clean $(DEMOS)
@@ -34,7 +35,7 @@ help: ## this list
 	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
-deps: ## install what is missing: SDL2, stb, cmocka, cJSON, OpenMP
+deps: ## install what is missing: SDL2, SDL2_gfx, stb, cmocka, cJSON, OpenMP
 	@.ci/deps install '$(CC)'
 
 ifneq (,$(filter deps,$(MAKECMDGOALS)))
@@ -54,7 +55,7 @@ $(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/demo.o $(
 	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/demo.o $(LDFLAGS) $(SDL_LIBS) -lm
 
 $(BUILD)/demo.o: demos/demo.c $(HEADERS)
-	@.ci/deps found '$(CC)' sdl2 stb openmp
+	@.ci/deps found '$(CC)' sdl2 stb openmp SDL2_gfx
 	@mkdir -p $(BUILD)
 	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) -c -o $@ $<
 

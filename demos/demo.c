@@ -1,5 +1,7 @@
 /* What the nine demos share; see demo.h. In this order: the command line, files, the state
  * of a run, progress, the window, demo_main. No ray tracing: the demo does that. */
+#define _DEFAULT_SOURCE   /* winsize */
+#define _DARWIN_C_SOURCE  /* the same on macOS */
 #define _XOPEN_SOURCE 700 /* isatty, fileno, stat, sigaction, realpath */
 #define RT_IMPLEMENTATION
 #include "demo.h"
@@ -9,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -33,36 +36,37 @@ typedef struct settings {
     float error, seconds; /* 0: not wanted */
     rt_sampler sampler;
     const char *out;
-    bool window, quiet, help, explain;
+    bool window, preview, quiet, help, explain;
     long x, y; /* the pixel to explain */
 } settings;
 
 static void print_help(const demo *d)
 {
-    printf(
-        "%s - %s\n\n"
-        "  build/%s [WIDTH HEIGHT] [options]        (default 640 480)\n"
-        "  make %s ARGS=\"WIDTH HEIGHT options\"\n\n"
-        "  --samples N   samples per pixel (default %d; with --error or --time no "
-        "limit)\n"
-        "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
-        "  --time S      stop after S seconds\n"
-        "  --bounces N   how often a ray is sent on (default %d%s)\n"
-        "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
-        "  --lanes N     rays at a time, 1, 4, 8 or 16 (default: %s)\n"
-        "  --sampler S   random or sobol numbers (default %s)\n"
-        "  --seed N      another seed, another noise (default 0)\n"
-        "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
-        "                or %s.png where there is no folder build)\n"
-        "  --explain X,Y only print what happens in this pixel (chapters 7 to 9)\n"
-        "  --no-window   only render and write\n"
-        "  --quiet       print nothing but errors\n"
-        "  --help        this\n\n"
-        "In the window: s saves, Esc or q ends. Ctrl-C saves what there is and ends.\n",
-        d->name, d->title, d->name, d->name, d->samples, d->bounces,
-        d->bounces == 0 ? "; this chapter has none yet" : "",
-        d->render ? "as many as the machine can" : "1; this chapter has no more",
-        d->sobol ? "sobol" : "random", d->name, d->name);
+    printf("%s - %s\n\n"
+           "  build/%s [WIDTH HEIGHT] [options]        (default 640 480)\n"
+           "  make %s ARGS=\"WIDTH HEIGHT options\"\n\n"
+           "  --samples N   samples per pixel (default %d; with --error or --time no "
+           "limit)\n"
+           "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
+           "  --time S      stop after S seconds\n"
+           "  --bounces N   how often a ray is sent on (default %d%s)\n"
+           "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
+           "  --lanes N     rays at a time, 1, 4, 8 or 16 (default: %s)\n"
+           "  --sampler S   random or sobol numbers (default %s)\n"
+           "  --seed N      another seed, another noise (default 0)\n"
+           "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
+           "                or %s.png where there is no folder build)\n"
+           "  --explain X,Y only print what happens in this pixel (chapters 7 to 9)\n"
+           "  --no-window   only render and write\n"
+           "  --preview     draw the picture in the terminal, too, as it refines\n"
+           "  --quiet       print nothing but errors\n"
+           "  --help        this\n\n"
+           "In the window: h shows the keys; s saves, Esc or q ends. Ctrl-C saves what "
+           "there is and ends.\n",
+           d->name, d->title, d->name, d->name, d->samples, d->bounces,
+           d->bounces == 0 ? "; this chapter has none yet" : "",
+           d->render ? "as many as the machine can" : "1; this chapter has no more",
+           d->sobol ? "sobol" : "random", d->name, d->name);
 }
 
 /* A whole number from low to high, digits only; otherwise one line that says so. */
@@ -174,6 +178,8 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
                        false;
         } else if (strcmp(arg, "--no-window") == 0) {
             s->window = false;
+        } else if (strcmp(arg, "--preview") == 0) {
+            s->preview = true;
         } else if (strcmp(arg, "--quiet") == 0) {
             s->quiet = true;
         } else if (strcmp(arg, "--help") == 0 || strcmp(arg, "-h") == 0) {
@@ -324,11 +330,10 @@ typedef struct run {
     double started;       /* in seconds, like the others */
     double line_due;      /* when the progress line may be printed again */
     int quarters;         /* how many of the plain lines were printed */
+    int preview_rows;     /* how many the preview has, once it is there */
     double draw_due;      /* when the window may be drawn again */
-    SDL_Window *window;   /* NULL: none */
-    SDL_Renderer *renderer;
-    SDL_Texture *texture;
-    bool closed; /* by Esc, q or the window's button */
+    struct window *win;   /* NULL: none */
+    bool closed;          /* by Esc, q or the window's button */
 } run;
 
 static volatile sig_atomic_t interrupted; /* by Ctrl-C or SIGTERM; a second one kills */
@@ -356,19 +361,22 @@ static void describe(const rt_image *image, char *text, size_t size)
         snprintf(text + n, size - (size_t)n, ", error unknown");
 }
 
-static void encode(run *r)
+static unsigned char (*encoder(const run *r))(float value);
+
+static void encode(run *r, const rt_image *image)
 {
-    const rt_vec3 *pixels = r->image.pixels;
-    const int width = r->image.width;
+    unsigned char (*byte)(float value) = encoder(r);
+    const rt_vec3 *pixels = image->pixels;
+    const int width = image->width;
 #ifdef _OPENMP
     const int threads = rt_thread_count((int)r->s.threads);
 #pragma omp parallel for num_threads(threads)
 #endif
-    for (int y = 0; y < r->image.height; y++)
+    for (int y = 0; y < image->height; y++)
         for (int i = y * width; i < (y + 1) * width; i++) {
-            r->bytes[3 * i + 0] = r->d->encode(pixels[i].x);
-            r->bytes[3 * i + 1] = r->d->encode(pixels[i].y);
-            r->bytes[3 * i + 2] = r->d->encode(pixels[i].z);
+            r->bytes[3 * i + 0] = byte(pixels[i].x);
+            r->bytes[3 * i + 1] = byte(pixels[i].y);
+            r->bytes[3 * i + 2] = byte(pixels[i].z);
         }
 }
 
@@ -403,7 +411,7 @@ static bool save_pfm(const run *r)
 
 static bool save_png(run *r)
 {
-    encode(r);
+    encode(r, &r->image);
     int size = 0;
     unsigned char *file = stbi_write_png_to_mem(
         r->bytes, 3 * r->image.width, r->image.width, r->image.height, 3, &size);
@@ -447,11 +455,88 @@ static bool on_terminal(void)
     return isatty(fileno(stderr)) && (!term || strcmp(term, "dumb") != 0);
 }
 
+/* How many colours the terminal has: 0 (none, or no terminal), 256, or 2^24. */
+static int terminal_colours(void)
+{
+    const char *term = getenv("TERM"), *colour = getenv("COLORTERM");
+    if (!on_terminal() || !term)
+        return 0;
+    if ((colour && (strcmp(colour, "truecolor") == 0 || strcmp(colour, "24bit") == 0)) ||
+        strstr(term, "-direct"))
+        return 1 << 24;
+    return strstr(term, "256color") ? 256 : 0;
+}
+
+/* The mean of the pixels in one of columns x rows parts of the image, as bytes. */
+static void preview_colour(const run *r, int x, int y, int columns, int rows, int rgb[3])
+{
+    const int width = r->image.width, height = r->image.height;
+    const int x0 = (int)((long long)x * width / columns);
+    const int y0 = (int)((long long)y * height / rows);
+    int x1 = (int)((long long)(x + 1) * width / columns);
+    int y1 = (int)((long long)(y + 1) * height / rows);
+    x1 = x1 > x0 ? x1 : x0 + 1;
+    y1 = y1 > y0 ? y1 : y0 + 1;
+    rt_vec3 sum = {0, 0, 0};
+    for (int j = y0; j < y1; j++)
+        for (int i = x0; i < x1; i++)
+            sum = rt_add(sum, r->image.pixels[j * width + i]);
+    const float part = 1.0f / (float)((x1 - x0) * (y1 - y0));
+    rgb[0] = r->d->encode(part * sum.x);
+    rgb[1] = r->d->encode(part * sum.y);
+    rgb[2] = r->d->encode(part * sum.z);
+}
+
+/* The picture in half blocks: the upper half of a cell has the colour of the text, the lower
+ * that of its background. Each row ends with the colours as they were, so there is nothing
+ * to bring back when the program ends, in whatever way. */
+static void print_preview(run *r)
+{
+    struct winsize size = {.ws_col = 80, .ws_row = 24};
+    ioctl(fileno(stderr), TIOCGWINSZ, &size);
+    int columns = size.ws_col > 1 ? size.ws_col - 1 : 1;
+    const int most = size.ws_row > 3 ? size.ws_row - 3 : 1;
+    int rows = (int)((double)columns * r->image.height / r->image.width / 2.0 + 0.5);
+    if (rows > most) {
+        rows = most;
+        const double fitting = 2.0 * rows * r->image.width / r->image.height;
+        columns = fitting < columns ? (int)(fitting + 0.5) : columns;
+    }
+    rows = rows > 0 ? rows : 1;
+    columns = columns > 0 ? columns : 1;
+    const bool all = terminal_colours() > 256;
+    if (r->preview_rows == rows)
+        fprintf(stderr, "\r\033[%dA", rows);
+    r->preview_rows = rows;
+    for (int y = 0; y < rows; y++) {
+        fprintf(stderr, "\r\033[K");
+        for (int x = 0; x < columns; x++) {
+            int c[6];
+            preview_colour(r, x, 2 * y, columns, 2 * rows, c);
+            preview_colour(r, x, 2 * y + 1, columns, 2 * rows, c + 3);
+            if (all)
+                fprintf(stderr, "\033[38;2;%d;%d;%d;48;2;%d;%d;%dm\xe2\x96\x80", c[0],
+                        c[1], c[2], c[3], c[4], c[5]);
+            else /* the nearest of 6 x 6 x 6 */
+                fprintf(stderr, "\033[38;5;%d;48;5;%dm\xe2\x96\x80",
+                        16 + 36 * ((c[0] + 25) / 51) + 6 * ((c[1] + 25) / 51) +
+                            (c[2] + 25) / 51,
+                        16 + 36 * ((c[3] + 25) / 51) + 6 * ((c[4] + 25) / 51) +
+                            (c[5] + 25) / 51);
+        }
+        fprintf(stderr, "\033[0m\n");
+    }
+}
+
 static void print_progress(run *r, double part)
 {
     const double now = demo_seconds();
     if (r->s.quiet)
         return;
+    if (r->s.preview && (now >= r->line_due || part >= 1.0)) {
+        print_preview(r);
+        r->line_due = 0.0;
+    }
     if (on_terminal()) {
         if (now < r->line_due)
             return;
@@ -477,145 +562,15 @@ static void end_progress(const run *r)
         fprintf(stderr, "\r\033[K");
 }
 
-/* -------------------------------------------------------------------------------------
- * The window
- * ------------------------------------------------------------------------------------- */
+#include "window.h"
 
-static void close_window(run *r)
-{
-    SDL_DestroyTexture(r->texture);
-    SDL_DestroyRenderer(r->renderer);
-    SDL_DestroyWindow(r->window);
-    r->texture = NULL;
-    r->renderer = NULL;
-    r->window = NULL;
-    SDL_Quit();
-}
-
-/* Without a display SDL succeeds all the same, with a driver that shows nothing, and the
- * libraries that it asks complain on stderr: on Linux look before asking. */
-static bool have_display(void)
-{
-#ifdef __linux__
-    if (!getenv("DISPLAY") && !getenv("WAYLAND_DISPLAY"))
-        return false;
-#endif
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); /* Ctrl-C is ours */
-    SDL_SetMainReady();
-    if (SDL_Init(SDL_INIT_VIDEO) != 0)
-        return false;
-    const char *driver = SDL_GetCurrentVideoDriver();
-    return driver && strcmp(driver, "offscreen") != 0 && strcmp(driver, "dummy") != 0;
-}
-
-static void open_window(run *r)
-{
-    const int width = r->image.width, height = r->image.height;
-    const char *why = "no display";
-    if (have_display()) {
-        SDL_Rect desk = {0, 0, width, height};
-        SDL_GetDisplayUsableBounds(0, &desk);
-        /* small pictures are enlarged, large ones fitted to the desk */
-        double zoom = 1.0;
-        while (width * zoom < 160.0 && height * zoom < 160.0)
-            zoom *= 2.0;
-        SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, zoom > 1.0 ? "nearest" : "linear");
-        if (width * zoom > 0.9 * desk.w)
-            zoom = 0.9 * desk.w / width;
-        if (height * zoom > 0.9 * desk.h)
-            zoom = 0.9 * desk.h / height;
-        r->window = SDL_CreateWindow(
-            r->d->title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-            1 + (int)(width * zoom - 0.5), 1 + (int)(height * zoom - 0.5),
-            SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-        if (r->window)
-            SDL_SetWindowMinimumSize(r->window, 160, 120);
-        if (r->window)
-            r->renderer = SDL_CreateRenderer(r->window, -1, 0);
-        if (r->renderer)
-            r->texture = SDL_CreateTexture(r->renderer, SDL_PIXELFORMAT_RGB24,
-                                           SDL_TEXTUREACCESS_STREAMING, width, height);
-        why = SDL_GetError();
-    }
-    if (r->texture) {
-        SDL_RenderSetLogicalSize(r->renderer, width, height); /* keeps the proportions */
-        return;
-    }
-    if (!r->s.quiet)
-        printf("%s: no window (%s)\n", r->d->name, why);
-    close_window(r);
-}
-
-static void draw(run *r, double part)
-{
-    char title[200];
-    if (part < 1.0) {
-        snprintf(title, sizeof title, "%s - %.0f %%, %d sample%s (s saves, q ends)",
-                 r->d->title, 100.0 * part, r->image.samples, plural(r->image.samples));
-    } else {
-        char result[100];
-        describe(&r->image, result, sizeof result);
-        snprintf(title, sizeof title, "%s - done, %s (s saves, q ends)", r->d->title,
-                 result);
-    }
-    SDL_SetWindowTitle(r->window, title);
-    encode(r);
-    SDL_UpdateTexture(r->texture, NULL, r->bytes, 3 * r->image.width);
-    SDL_RenderClear(r->renderer);
-    SDL_RenderCopy(r->renderer, r->texture, NULL, NULL);
-    SDL_RenderPresent(r->renderer);
-}
-
-static void handle(run *r, const SDL_Event *event)
-{
-    const bool plain = event->type == SDL_KEYDOWN &&
-                       !(event->key.keysym.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI));
-    const SDL_Keycode key = plain ? event->key.keysym.sym : 0;
-    if (event->type == SDL_QUIT || key == SDLK_ESCAPE || key == SDLK_q)
-        r->closed = true;
-    if (key == SDLK_s && event->key.repeat == 0 && save(r) && !r->s.quiet) {
-        end_progress(r);
-        printf("%s: saved %s\n", r->d->name, r->s.out);
-        fflush(stdout);
-    }
-    if (event->type == SDL_WINDOWEVENT)
-        r->draw_due = 0.0;
-}
-
-/* Called by rt_render_pixels between two bands of pixels, every few milliseconds, while no
- * thread renders: so the window answers, and the image may be read. */
+/* Called by rt_render_pixels between two bands of pixels. */
 static bool progress(void *user, float part)
 {
     run *r = user;
-    print_progress(r, (double)part);
-    if (r->window) {
-        SDL_Event event;
-        while (!r->closed && SDL_PollEvent(&event))
-            handle(r, &event);
-        const double now = demo_seconds();
-        if (!r->closed && now >= r->draw_due) { /* 30 a second, 5 % of the time at most */
-            draw(r, (double)part);
-            const double took = demo_seconds() - now;
-            r->draw_due = now + took + (20.0 * took > 0.033 ? 20.0 * took : 0.033);
-        }
-    }
-    return !r->closed && !interrupted;
-}
-
-static void wait_until_closed(run *r)
-{
-    draw(r, 1.0);
-    while (!r->closed && !interrupted) {
-        SDL_Event event;
-        if (!SDL_WaitEventTimeout(&event, 100))
-            continue;
-        r->draw_due = 1.0;
-        do
-            handle(r, &event);
-        while (!r->closed && SDL_PollEvent(&event));
-        if (r->draw_due == 0.0)
-            draw(r, 1.0);
-    }
+    if (!r->win || !r->win->disturbed)
+        print_progress(r, (double)part);
+    return r->win ? window_progress(r) : !interrupted;
 }
 
 /* -------------------------------------------------------------------------------------
@@ -635,12 +590,6 @@ unsigned char demo_linear(float value)
 unsigned char demo_gamma(float value)
 {
     return rt_encode(value, 2.2);
-}
-
-static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
-{
-    const run *r = context;
-    return r->d->pixel(&r->view, x, y, rng);
 }
 
 static void print_job(const run *r)
@@ -694,33 +643,14 @@ static int explain(run *r)
     return status == RT_OK ? DONE : FAILED;
 }
 
-static rt_status render(run *r)
+/* The picture that the command line wanted is done, or was interrupted, or failed. */
+static bool finish(run *r, rt_status status, double took)
 {
-    const rt_options options = options_of(r);
-    if (r->d->render)
-        return r->d->render(&options, &r->image);
-    return rt_render_pixels(call_pixel, r, &options, &r->image);
-}
-
-static int render_and_save(run *r)
-{
-    if (!r->s.quiet)
-        print_job(r);
-    r->started = demo_seconds();
-    const rt_status status = render(r);
-    const double took = demo_seconds() - r->started;
     end_progress(r);
-    if (status != RT_OK && status != RT_CANCELLED) {
-        fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status));
-        return FAILED;
-    }
-    if (r->closed) {
-        if (!r->s.quiet)
-            printf("%s: closed after %.2f s, before the end\n", r->d->name, took);
-        return DONE;
-    }
+    if (status != RT_OK && status != RT_CANCELLED)
+        return fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status)), false;
     if (!save(r))
-        return FAILED;
+        return false;
     if (!r->s.quiet) {
         char result[100];
         describe(&r->image, result, sizeof result);
@@ -729,9 +659,25 @@ static int render_and_save(run *r)
                status == RT_CANCELLED ? " (interrupted)" : "");
     }
     fflush(stdout);
-    if (r->window && status == RT_OK)
-        wait_until_closed(r);
-    return interrupted ? INTERRUPTED : DONE;
+    return true;
+}
+
+static int render_and_save(run *r)
+{
+    if (!r->s.quiet)
+        print_job(r);
+    r->started = demo_seconds();
+    bool good;
+    if (r->win) {
+        good = live(r);
+    } else {
+        const rt_options options = options_of(r);
+        const rt_status status =
+            r->d->render ? r->d->render(&options, &r->image)
+                         : rt_render_pixels(call_pixel, r, &options, &r->image);
+        good = finish(r, status, demo_seconds() - r->started);
+    }
+    return !good ? FAILED : interrupted ? INTERRUPTED : DONE;
 }
 
 int demo_main(int argc, char **argv, const demo *d)
@@ -755,6 +701,11 @@ int demo_main(int argc, char **argv, const demo *d)
     }
     if (!r.s.explain && !can_write(d, r.s.out))
         return FAILED;
+    if (r.s.preview && terminal_colours() == 0) {
+        if (!r.s.quiet)
+            printf("%s: --preview: this is no terminal with colours\n", d->name);
+        r.s.preview = false;
+    }
     if (d->bounces == 0 && r.s.bounces > 0 && !r.s.quiet)
         printf("%s: this chapter has no bounces yet, --bounces changes nothing\n",
                d->name);
@@ -787,7 +738,7 @@ int demo_main(int argc, char **argv, const demo *d)
         if (r.s.window)
             open_window(&r);
         result = render_and_save(&r);
-        if (r.window)
+        if (r.win)
             close_window(&r);
     } else {
         fprintf(stderr, "%s: not enough memory for %lld x %lld pixels\n", d->name,

@@ -6,12 +6,57 @@
 #define DEMO_H
 
 #include "../rt.h"
+#include <stdio.h>
 
 /* What pixel() may want to know about the picture. */
 typedef struct demo_view {
     int width, height; /* in pixels */
     int bounces;
 } demo_view;
+
+/* A line of the ray inspector, in the room. */
+typedef enum demo_kind {
+    LINE_ROOM, /* outlines of the things */
+    LINE_CAMERA,
+    LINE_DIFFUSE, /* sent on by a matt surface, and by a mirror */
+    LINE_MIRROR,
+    LINE_NORMAL,
+    LINE_LIT, /* to the lamp, and what is behind something on the way */
+    LINE_BLOCKED
+} demo_kind;
+
+typedef struct demo_line {
+    rt_vec3 from, to;
+    demo_kind kind;
+    float weight; /* 0 to 1: how much of the light from here arrives */
+} demo_line;
+
+/* What the window can do with the scene of a demo; the demos have it from live.h. */
+typedef struct demo_live {
+    /* The picture of chapter 1 to 7 of the same view; and its direct light only, quickly. */
+    rt_status (*render)(int stage, const demo_view *view, const rt_options *options,
+                        rt_image *image);
+    rt_status (*draft)(int stage, const demo_view *view, const rt_options *options,
+                       rt_image *image);
+    /* The camera: round the room, sideways, nearer by a factor; all as it was at first. */
+    void (*orbit)(float right_turns, float up_turns);
+    void (*pan)(const demo_view *view, float right_pixels, float up_pixels);
+    void (*zoom)(float factor);
+    void (*reset)(void);
+    /* The thing under the point (x, y) of the film, 0 for none; its name; and move it. */
+    int (*pick)(int stage, const demo_view *view, float x, float y);
+    const char *(*name)(int thing);
+    void (*drag)(int thing, const demo_view *view, float right_pixels, float up_pixels,
+                 bool over_the_floor);
+    /* To standard output: C code that brings this view back. */
+    void (*print)(void);
+    /* Lines: the things in the room; and the path of one sample of the pixel (x, y), which
+     * is told in words, too, in short and as --explain does (NULL: not wanted). */
+    int (*outlines)(int stage, const demo_view *view, demo_line *lines, int most);
+    int (*path)(int stage, const demo_view *view, const rt_options *options,
+                const rt_image *image, int x, int y, int sample, demo_line *lines,
+                int most, FILE *summary, FILE *words);
+} demo_live;
 
 typedef struct demo {
     const char *name;  /* "demo05": the picture goes to build/demo05.png */
@@ -28,6 +73,8 @@ typedef struct demo {
 
     /* NULL, or what --explain prints about the pixel (x, y). */
     rt_status (*explain)(const rt_options *options, const rt_image *image, int x, int y);
+
+    const demo_live *live; /* NULL: a window in which nothing moves */
 
     /* The byte for one channel of a pixel: demo_linear, demo_gamma or the demo's own. */
     unsigned char (*encode)(float value);

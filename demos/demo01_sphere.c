@@ -4,8 +4,7 @@
  * Now     every pixel asks one question: does my ray hit the sphere? Yes: the colour of the
  *         sphere. No: black. The picture is a flat disc; light comes in chapter 2.
  * Run     make demo01 */
-#include "demo.h"
-#include "scene.h"
+#include "live.h"
 
 /* The points C + t u of the ray at distance R from O: with f = C - O,
  * t^2 <u,u> + 2 t <f,u> + <f,f> - R^2 = 0. In double, so that giant spheres work, too. */
@@ -56,6 +55,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo01",
                              .title = "1. A sphere",
                              .pixel = pixel,
+                             .live = &live_room,
                              .encode = demo_linear,
                              .samples = 16});
 }

@@ -4,8 +4,7 @@
  * Now     six spheres: five of them so large that they pass for walls. The ray asks all and
  *         keeps the nearest hit; a lamp and Lambert's law make it look solid.
  * Run     make demo02 */
-#include "demo.h"
-#include "scene.h"
+#include "live.h"
 
 /* The nearest hit: each sphere is only asked for something nearer than the best so far. */
 static bool nearest(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
@@ -49,6 +48,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo02",
                              .title = "2. Walls, and Lambert's law",
                              .pixel = pixel,
+                             .live = &live_room,
                              .encode = demo_linear,
                              .samples = 16});
 }

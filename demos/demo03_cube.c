@@ -4,8 +4,7 @@
  * Now     a box: the part of the ray between two planes, three times over. What all three
  *         parts have in common is inside the box; the last plane entered gives the normal.
  * Run     make demo03 */
-#include "demo.h"
-#include "scene.h"
+#include "live.h"
 
 static bool hit_box(const rt_box *box, const rt_ray *ray, float t_max, rt_hit *hit)
 {
@@ -64,6 +63,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo03",
                              .title = "3. A cube",
                              .pixel = pixel,
+                             .live = &live_room,
                              .encode = demo_linear,
                              .samples = 16});
 }

@@ -5,8 +5,7 @@
  *         the point gets no light. Two details decide whether it works: where this ray
  *         starts, and where it ends.
  * Run     make demo04 */
-#include "demo.h"
-#include "scene.h"
+#include "live.h"
 
 /* Does the lamp at S see the point P of a surface with normal N? */
 static bool visible(const rt_scene *scene, rt_vec3 P, rt_vec3 N, rt_vec3 S)
@@ -18,7 +17,7 @@ static bool visible(const rt_scene *scene, rt_vec3 P, rt_vec3 N, rt_vec3 S)
     rt_ray shadow;
     shadow.origin = rt_add(P, rt_scale(N, above * 8.0f * FLT_EPSILON * size));
 
-    /* Not normalised, so that the lamp is at t = 1, and what lies behind it does not count. */
+    /* Not normalised: the lamp is at t = 1, and what lies behind it does not count. */
     shadow.direction = rt_sub(S, shadow.origin);
 
     rt_hit hit;
@@ -52,6 +51,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo04",
                              .title = "4. Shadows",
                              .pixel = pixel,
+                             .live = &live_room,
                              .encode = demo_linear,
                              .samples = 16});
 }

@@ -6,8 +6,7 @@
  *         numbers in the image do not change, only the bytes that show them: with
  *         --out light.pfm this demo and demo04 write the same light.
  * Run     make demo05 */
-#include "demo.h"
-#include "scene.h"
+#include "live.h"
 
 /* In this order: NaN is not greater than 0, so it becomes 0; nothing negative reaches pow;
  * nothing above 1 reaches the byte; and + 0.5 rounds instead of cutting off. */
@@ -35,6 +34,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo05",
                              .title = "5. Gamma",
                              .pixel = pixel,
+                             .live = &live_room,
                              .encode = encode,
                              .samples = 16});
 }

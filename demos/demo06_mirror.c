@@ -5,8 +5,7 @@
  *         meets. Two mirrors could go on for ever, so the ray is sent on 5 times at most;
  *         with one mirror, as here, once is enough.
  * Run     make demo06 */
-#include "demo.h"
-#include "scene.h"
+#include "live.h"
 
 /* R = I - 2 <I,N> N: the part of I along N is turned round. */
 static rt_vec3 reflect(rt_vec3 I, rt_vec3 N)
@@ -37,6 +36,7 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo06",
                              .title = "6. A mirror",
                              .pixel = pixel,
+                             .live = &live_room,
                              .encode = demo_gamma,
                              .samples = 16,
                              .bounces = 5});

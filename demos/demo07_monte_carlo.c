@@ -5,8 +5,7 @@
  *         up to 5 times, and each pixel takes the mean of many such paths. More samples,
  *         less noise: four times as many, half of it.
  * Run     make demo07                         (or ARGS="--samples 256", and wait a little) */
-#include "demo.h"
-#include "explain.h"
+#include "live.h"
 
 /* A random direction about N, drawn in proportion to its cosine with N. */
 static rt_vec3 sample_cosine(rt_vec3 N, float r1, float r2)
@@ -60,6 +59,7 @@ int main(int argc, char **argv)
                              .title = "7. Indirect light",
                              .pixel = pixel,
                              .explain = explain_indirect,
+                             .live = &live_room,
                              .encode = demo_gamma,
                              .samples = 16,
                              .bounces = 5});

@@ -1,10 +1,9 @@
 /* Demo 08: faster.
  *
  * Before  rt.h's loop ran on all cores; in the report OpenMP "did not work".
- * Now     why not: loops that are wrong, the right one, and rt_render, which traces 4 to 16
- *         rays at a time, timed side by side. Then the room, as fast as it goes.
+ * Now     why not, measured; and 4 to 16 rays at a time. Then the room, as fast as it goes.
  * Run     make demo08                          (or ARGS="--threads 1 --lanes 1") */
-#include "explain.h"
+#include "live.h"
 #include "loops.h"
 
 /* Wrong: the threads start and stop for each pixel. */
@@ -73,6 +72,7 @@ int main(int argc, char **argv)
                              .render = render,
                              .measure = measure,
                              .explain = explain_indirect,
+                             .live = &live_room,
                              .encode = demo_gamma,
                              .samples = 64,
                              .bounces = 5,

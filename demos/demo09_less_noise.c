@@ -4,8 +4,8 @@
  * Now     numbers that fill the square evenly: Sobol's points, scrambled. The same rays, and
  *         less noise; and the picture knows how large its error is.
  * Run     make demo09                                       (or ARGS="--error 0.05") */
+#include "live.h"
 #include "noise.h"
-#include "explain.h"
 
 static uint32_t reverse(uint32_t bits)
 {
@@ -68,6 +68,7 @@ int main(int argc, char **argv)
                              .render = render,
                              .measure = measure,
                              .explain = explain_indirect,
+                             .live = &live_room,
                              .encode = demo_gamma,
                              .samples = 64,
                              .bounces = 5,

@@ -15,70 +15,83 @@ static const char *shape_name(int shape)
     return names[shape + 1];
 }
 
-static void print_vec(const char *before, rt_vec3 v, const char *after)
+static void print_vec(FILE *out, const char *before, rt_vec3 v, const char *after)
 {
-    printf("%s(%.6g, %.6g, %.6g)%s", before, (double)v.x, (double)v.y, (double)v.z,
-           after);
+    fprintf(out, "%s(%.6g, %.6g, %.6g)%s", before, (double)v.x, (double)v.y, (double)v.z,
+            after);
 }
 
-static void print_vertex(const rt_path *path, int n)
+static void print_vertex(FILE *out, const rt_path *path, int n)
 {
     const rt_vertex *v = &path->vertices[n];
-    printf("  +- %s %s", n == 0 ? "camera ray meets" : "goes on to",
-           shape_name(v->shape));
+    fprintf(out, "  +- %s %s", n == 0 ? "camera ray meets" : "goes on to",
+            shape_name(v->shape));
     if (v->shape < 0) {
-        print_vec(", background ", v->light, "");
+        print_vec(out, ", background ", v->light, "");
     } else {
-        printf(" at t = %.6g\n", (double)v->hit.t);
-        print_vec("  |    P ", v->hit.point, "");
-        print_vec(", N ", v->hit.normal, "");
+        fprintf(out, " at t = %.6g\n", (double)v->hit.t);
+        print_vec(out, "  |    P ", v->hit.point, "");
+        print_vec(out, ", N ", v->hit.normal, "");
     }
-    print_vec("\n  |    throughput ", v->throughput, "\n");
+    print_vec(out, "\n  |    throughput ", v->throughput, "\n");
     bool asked = false;
     for (int i = 0; i < path->shadow_count; i++) {
         const rt_shadow *s = &path->shadows[i];
         if (s->vertex != n)
             continue;
         asked = true;
-        printf("  |    lamp: cosine %.6g, d^2 %.6g, ", (double)s->cosine, (double)s->dd);
+        fprintf(out, "  |    lamp: cosine %.6g, d^2 %.6g, ", (double)s->cosine,
+                (double)s->dd);
         if (s->blocker < 0)
-            print_vec("seen, sends ", s->light_sent, "\n");
+            print_vec(out, "seen, sends ", s->light_sent, "\n");
         else
-            printf("hidden by %s, %.0f %% of the way\n", shape_name(s->blocker),
-                   100.0 * (double)s->t);
+            fprintf(out, "hidden by %s, %.0f %% of the way\n", shape_name(s->blocker),
+                    100.0 * (double)s->t);
     }
     if (!asked && v->shape >= 0)
-        printf("  |    %s\n", v->hit.material->mirror
-                                  ? "a mirror: the light comes from where it points"
-                                  : "lamp: behind the surface");
-    print_vec("  |    adds ", rt_mul(v->throughput, v->light), "\n");
+        fprintf(out, "  |    %s\n",
+                v->hit.material->mirror ? "a mirror: the light comes from where it points"
+                                        : "lamp: behind the surface");
+    print_vec(out, "  |    adds ", rt_mul(v->throughput, v->light), "\n");
 }
 
-static rt_status explain_indirect(const rt_options *options, const rt_image *image, int x,
-                                  int y)
+/* One sample, as rt_trace_pixel has written it down. */
+static void print_path(FILE *out, const rt_path *path, int sample)
 {
-    enum { MOST = 100 };
-    static rt_vertex vertices[MOST];
-    static rt_shadow shadows[MOST];
-    rt_path path = {.vertices = vertices,
-                    .max_vertices = MOST,
-                    .shadows = shadows,
-                    .max_shadows = MOST};
+    fprintf(out, "sample %d\n", sample);
+    for (int n = 0; n < path->vertex_count && n < path->max_vertices; n++)
+        print_vertex(out, path, n);
+    if (path->vertex_count > path->max_vertices)
+        fprintf(out, "  +- and %d more\n", path->vertex_count - path->max_vertices);
+    print_vec(out, "  = ", path->value, "\n");
+}
+
+/* A path of up to MOST_VERTICES, with memory of its own: one at a time. */
+enum { MOST_VERTICES = 100 };
+static rt_path empty_path(void)
+{
+    static rt_vertex vertices[MOST_VERTICES];
+    static rt_shadow shadows[MOST_VERTICES];
+    return (rt_path){.vertices = vertices,
+                     .max_vertices = MOST_VERTICES,
+                     .shadows = shadows,
+                     .max_shadows = MOST_VERTICES};
+}
+
+static inline rt_status explain_indirect(const rt_options *options, const rt_image *image,
+                                         int x, int y)
+{
+    rt_path path = empty_path();
     rt_vec3 mean = {0, 0, 0};
     for (int k = 0; k < options->samples; k++) {
         const rt_status status =
             rt_trace_pixel(&scene_indirect, &room_camera, options, image, x, y, k, &path);
         if (status != RT_OK)
             return status;
-        printf("sample %d\n", k);
-        for (int n = 0; n < path.vertex_count && n < MOST; n++)
-            print_vertex(&path, n);
-        if (path.vertex_count > MOST)
-            printf("  +- and %d more\n", path.vertex_count - MOST);
-        print_vec("  = ", path.value, "\n");
+        print_path(stdout, &path, k);
         mean = rt_add(mean, rt_scale(rt_sub(path.value, mean), 1.0f / (float)(k + 1)));
     }
-    print_vec("mean: ", mean, "");
+    print_vec(stdout, "mean: ", mean, "");
     printf(", as bytes %d, %d, %d\n", rt_encode(mean.x, 2.2), rt_encode(mean.y, 2.2),
            rt_encode(mean.z, 2.2));
     return RT_OK;

@@ -13,7 +13,12 @@
 
 #include "../rt.h"
 
-static const rt_sphere room_spheres[7] = {
+/* In the window things can be moved; live.h has no const here. */
+#ifndef MOVABLE
+#define MOVABLE const
+#endif
+
+static MOVABLE rt_sphere room_spheres[7] = {
     {{-20, -4.242709f, 8}, 16, {{0.85f, 0.10f, 0.08f}, false}}, /* red sphere, in front */
     {{-990, 0, 0}, 940, {{0.15f, 0.60f, 0.15f}, false}},        /* left wall, green */
     {{0, 980, 0}, 940, {{0.65f, 0.12f, 0.10f}, false}},         /* ceiling, red */
@@ -23,14 +28,14 @@ static const rt_sphere room_spheres[7] = {
     {{6, -2.772754f, -38}, 18, {{1, 1, 1}, true}}, /* mirror sphere, behind */
 };
 
-static const rt_box room_cube = {
+static MOVABLE rt_box room_cube = {
     {19, -20.5f, -17}, {38, -1.5f, 2}, {{0.90f, 0.75f, 0.10f}, false}}; /* yellow */
 
 /* A bulb under the ceiling; in chapter 7, where the walls give light too, a dimmer one. */
-static const rt_light room_light = {{-4, 30, 19}, {5200, 5200, 5200}};
-static const rt_light room_dim_light = {{-4, 30, 19}, {3380, 3380, 3380}};
+static MOVABLE rt_light room_light = {{-4, 30, 19}, {5200, 5200, 5200}};
+static MOVABLE rt_light room_dim_light = {{-4, 30, 19}, {3380, 3380, 3380}};
 
-static const rt_camera room_camera = {{0, 8, 105}, {0, -1, -105}, {0, 1, 0}, 46};
+static MOVABLE rt_camera room_camera = {{0, 8, 105}, {0, -1, -105}, {0, 1, 0}, 46};
 
 static const rt_scene scene_sphere = {.spheres = room_spheres, .sphere_count = 1};
 

@@ -18,7 +18,7 @@ field() { # FILE NAME: from the comment at the top of a mistake, on one line
 
 render() { # NAME SUBMISSION OPTIONS
     $cc $flags $openmp "-DSUBMISSION=\"$2\"" -o "$work/$1" tests/classroom/show.c \
-        "$build/demo.o" $(pkg-config --libs sdl2) -lm &&
+        "$build/demo.o" $(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) -lm &&
         "$work/$1" 240 180 --samples 16 --lanes 1 --no-window --quiet --out "$work/$1.png" $3
 }
 

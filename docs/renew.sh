@@ -5,7 +5,7 @@
 # To be run at the top of the repository, after docs/numbers.sh.
 #   <!-- snip: PATH#NAME -->   the definition of NAME in PATH: a function, a struct, an enum,
 #   <!-- /snip -->             or the program below the heading NAME in a comment
-#   <!-- put: NAME -->         what is in build/numbers/NAME.txt, but for lines "key: value"
+#   <!-- put: NAME -->         what build/numbers/NAME.txt has, but for its lines "key: value"
 #   <!-- /put -->
 #   <!--NAME KEY-->...<!--/--> the value in the line "KEY: value" there, within a sentence
 program='
@@ -37,11 +37,14 @@ function excerpt(path, name,    line, status, end, part, found, result) {
     sub(/^\n+/, "", result)
     return "```c\n" result "\n```"
 }
-function numbers(name, key,    path, line, status, result) { # without a key: the rest
+function numbers(name, key,    path, line, status, result, fence) { # without a key: the rest
     path = build "/numbers/" name ".txt"
-    while ((status = (getline line < path)) > 0)
-        if (key == "" && line !~ /^[^ |]+: /) result = result line "\n"
+    while ((status = (getline line < path)) > 0) {
+        if (line ~ /^```/) fence = !fence
+        else if (key == "" && !fence && line ~ /^[^ |]+: /) continue
+        if (key == "") result = result line "\n"
         else if (key != "" && index(line, key ": ") == 1) result = substr(line, length(key) + 3)
+    }
     close(path)
     if (status < 0) fail("cannot read " path ": run docs/numbers.sh")
     if (result == "") fail(path " has no " key)

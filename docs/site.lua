@@ -4,6 +4,10 @@ function CodeBlock(block)
     if block.classes[1] == "math" then
         return pandoc.Para({ pandoc.Math("DisplayMath", block.text) })
     end
+    if select(2, block.text:gsub("\n", "")) > 45 then -- may be split over pages
+        block.classes:insert("long")
+        return block
+    end
 end
 
 function Inlines(list) -- $`...`$ is a Str that ends in $, a Code, and a Str that begins with $
@@ -14,6 +18,15 @@ function Inlines(list) -- $`...`$ is a Str that ends in $, a Code, and a Str tha
             before.text = before.text:sub(1, -2)
             after.text = after.text:sub(2)
             list[i] = pandoc.Math("InlineMath", code.text)
+        end
+    end
+    for i = 1, #list - 1 do -- a number stays with its unit, a formula with its full stop
+        local a, b = list[i], list[i + 1]
+        if a.t == "Space" and b.t == "Str" and (b.text:match("^%%") or b.text:match("^[mn]?s$")) then
+            list[i] = pandoc.Str("\u{a0}")
+        elseif a.t == "Math" and a.mathtype == "InlineMath" and b.t == "Str" and b.text:match("^[,.;:)?!]") then
+            list[i] = pandoc.Span({ a, b }, { style = "white-space: nowrap" })
+            list[i + 1] = pandoc.Str("")
         end
     end
     return list

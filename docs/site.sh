@@ -30,17 +30,17 @@ done
 
 # All of it, to print; the links between the pages become links within.
 for name in $chapters $others; do
+    echo "<a id=\"$name\"></a>"
     pandoc -f gfm-tex_math_dollars -t html5 --mathml --lua-filter docs/site.lua \
         --id-prefix "$name-" "docs/$name.md" |
-        sed -e "s/href=\"#/href=\"#$name-/g" -e "s/<h1 /<a id=\"$name\"><\/a><h1 /" \
-            -e 's/href="\([0-9a-z-]*\)\.html#/href="#\1-/g' -e 's/href="\([0-9a-z-]*\)\.html"/href="#\1"/g' \
+        sed -e 's/href="\([0-9a-z-]*\)\.html#/href="#\1-/g' -e 's/href="\([0-9a-z-]*\)\.html"/href="#\1"/g' \
             -e '/^<p>Previous: /,/<\/p>$/d'
 done >"$site/body.html"
-pandoc -f html -t html5 -s --mathml --css site.css --metadata pagetitle="rt.h" --metadata lang=en \
-    /dev/null -o "$site/frame.html" || exit 1
+echo '`x`{.c}' | # code, so that the colours for it are there
+    pandoc -f markdown -t html5 -s --mathml --css site.css --metadata pagetitle="rt.h" --metadata lang=en -o "$site/frame.html" || exit 1
 {
     sed '/<body>/q' "$site/frame.html"
-    echo '<header><p class="title">rt.h</p><p>A small ray tracer in one C header, and its textbook.</p><ul>'
+    echo '<header id="index"><p class="title" id="index-the-chapters">rt.h</p><p>A small ray tracer in one C header, and its textbook.</p><ul>'
     for name in $chapters $others; do
         echo "<li><a href=\"#$name\">$(sed -n '1s/^# //p' "docs/$name.md")</a></li>"
     done

@@ -1,6 +1,5 @@
 /* Chapter 7: random numbers, the hemisphere, radiance. */
 #define DEMO "../demos/demo07_monte_carlo.c"
-#include "../demos/scene.h"
 #include "test.h"
 
 static const rt_scene empty; /* all zero */

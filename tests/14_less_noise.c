@@ -1,7 +1,6 @@
 /* Chapter 9 and the options that go with it: Sobol's numbers, the estimated error, and when to
  * stop. */
 #define DEMO "../demos/demo09_less_noise.c"
-#include "../demos/scene.h"
 #include "test.h"
 
 static const rt_options defaults; /* all zero */

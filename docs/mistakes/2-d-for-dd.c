@@ -1,6 +1,6 @@
 /* d for d squared
  *
- * Symptom: nearly white, and as bright far from the lamp as near it
+ * Symptom: burnt to white, near the lamp and far from it
  * Cause:   the light was divided by the distance, not by its square
  * Cure:    I / d^2
  * Options:

@@ -1,6 +1,7 @@
 /* The last hit, not the nearest
  *
- * Symptom: what is behind shows through what is in front
+ * Symptom: what comes first in the list vanishes behind what comes last: the
+ *          ball is gone, and the walls are nearly black but for the last one
  * Cause:   the loop over the shapes keeps the last hit in place of the nearest
  * Cure:    keep a hit only if its t is smaller than the smallest so far
  * Options:

@@ -1,6 +1,7 @@
 /* L not made a unit vector
  *
- * Symptom: white around everything: brighter the further from the lamp
+ * Symptom: burnt to white: the very picture of d for d squared, as the cosine
+ *          times d, over d squared, is the same
  * Cause:   <N,L> with L = S - P, which is d long: the cosine times d
  * Cure:    divide L by its length first
  * Options:

@@ -1,8 +1,8 @@
 /* Too large a step
  *
- * Symptom: light leaks in where things touch: shadows do not begin at the foot of
- *          the cube and ball
- * Cause:   the step off the surface jumps over what is near
+ * Symptom: dark lines along the edges of the room, and all shadows shifted
+ * Cause:   from so far above the surface a point near an edge is in the next
+ *          wall already, and the shadow is that of another point
  * Cure:    as small as rounding allows: 1e-6 of the coordinates
  * Options: --bounces 0
  */

@@ -1,6 +1,6 @@
 /* No clamp
  *
- * Symptom: bright parts turn dark or into odd colours
+ * Symptom: rings of odd colours where it is bright
  * Cause:   values above 1 give numbers above 255, of which a byte keeps the last
  *          eight bits
  * Cure:    clamp to 0 ... 1 first

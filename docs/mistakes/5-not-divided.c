@@ -1,6 +1,7 @@
 /* Not divided by n
  *
- * Symptom: white: the sum of 16 samples shown in place of their mean
+ * Symptom: burnt out, nearly all of it white or in pure colours: the sum of 16
+ *          samples in place of their mean
  * Cause:   the division by the number of samples is missing
  * Cure:    sum / n
  * Options:

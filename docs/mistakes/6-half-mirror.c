@@ -1,6 +1,6 @@
 /* Half a reflection
  *
- * Symptom: the mirror shows the room bent and stretched, or the floor only
+ * Symptom: the mirror shows a shrunken, speckled image
  * Cause:   I - <I,N> N: the part along the normal is taken off once, so the ray
  *          runs along the surface
  * Cure:    twice: I - 2 <I,N> N

@@ -1,6 +1,7 @@
 /* The cosine twice
  *
- * Symptom: indirect light is too weak, corners are too dark
+ * Symptom: indirect light is too weak: shadows, corners, and the ball from
+ *          below are darker
  * Cause:   directions drawn by the cosine, and a factor <N,w> on top
  * Cure:    the density has the cosine already: it cancels
  * Options:

@@ -1,9 +1,10 @@
 /* N x a fixed vector
  *
- * Symptom: one side of the cube is black; in other scenes there are black specks
- * Cause:   the cross product with (1,0,0) is zero where the normal is the same;
- *          divided by its length it is NaN, and one NaN spoils the whole mean of
- *          its pixel
+ * Symptom: one side of the cube has no indirect light: too dark, and without
+ *          grain. In other programs, black specks
+ * Cause:   the cross product with (1,0,0) is zero where the normal is the
+ *          same; divided by its length it is NaN, and a ray along NaN meets
+ *          nothing
  * Cure:    a basis that works for every normal (rt_basis)
  * Options:
  */

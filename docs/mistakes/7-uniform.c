@@ -1,6 +1,8 @@
 /* Uniform directions without the cosine
  *
- * Symptom: corners are too bright, and there is more noise
+ * Symptom: hard to see: corners and edges a little too dark, and what faces a
+ *          bright floor or wall at a flat angle too bright. Two pictures with
+ *          many samples show it, or the mean of the light
  * Cause:   directions uniform on the hemisphere, but the estimate leaves the cosine
  *          out, as if it were in their density
  * Cure:    cosine-weighted directions; or uniform ones, and 2 <N,w> as a factor

@@ -1,0 +1,456 @@
+/* The room that moves: what the window asks of the scene of a demo, in place of scene.h. The
+ * stages 1 to 7 are the chapters' pictures of the same view, by rt.h; the demo's own function
+ * takes the place of one of them. */
+#ifndef LIVE_H
+#define LIVE_H
+
+#define MOVABLE /* before scene.h: no constants here */
+#include "demo.h"
+#include "explain.h"
+#include "scene.h"
+
+static const rt_scene *const live_scenes[8] = {
+    NULL,        &scene_sphere, &scene_walls,  &scene_cube,
+    &scene_cube, &scene_cube,   &scene_mirror, &scene_indirect};
+
+/* -------------------------------------------------------------------------------------
+ * The stages
+ * ------------------------------------------------------------------------------------- */
+
+typedef struct live_context {
+    int stage;
+    const demo_view *view;
+} live_context;
+
+/* Chapters 1 to 6, one after the other: each stops one question later. */
+static rt_vec3 live_pixel(const void *context, float x, float y, rt_rng *rng)
+{
+    const live_context *c = context;
+    const rt_scene *scene = live_scenes[c->stage];
+    rt_ray ray = rt_camera_ray(&room_camera, c->view->width, c->view->height, x, y);
+    for (int bounce = 0; bounce <= c->view->bounces; bounce++) {
+        rt_hit hit;
+        rng->rays++;
+        if (!rt_intersect(scene, &ray, &hit))
+            break;
+        if (c->stage == 1)
+            return hit.material->albedo;
+        if (c->stage <= 3)
+            return rt_lambert(hit.material->albedo, hit.normal,
+                              rt_sub(room_light.position, hit.point),
+                              room_light.intensity);
+        if (!hit.material->mirror)
+            return rt_direct(scene, &hit, rng);
+        const rt_vec3 direction = rt_reflect(ray.direction, hit.normal);
+        ray.origin = rt_leave(hit.point, hit.normal, direction);
+        ray.direction = direction;
+    }
+    return rt_vec(0, 0, 0);
+}
+
+static rt_status live_render(int stage, const demo_view *view, const rt_options *options,
+                             rt_image *image)
+{
+    const live_context context = {stage, view};
+    if (stage == 7)
+        return rt_render(&scene_indirect, &room_camera, options, image);
+    return rt_render_pixels(live_pixel, &context, options, image);
+}
+
+/* Direct light, at once: all lanes without bounces. What is black then may be a mirror: these
+ * pixels are asked again, one ray at a time. */
+static rt_status live_draft(int stage, const demo_view *view, const rt_options *options,
+                            rt_image *image)
+{
+    if (stage < 4)
+        return live_render(stage, view, options, image);
+    rt_options direct = *options;
+    direct.bounces = 0;
+    const rt_status status = rt_render(live_scenes[stage], &room_camera, &direct, image);
+    demo_view mirrors = *view;
+    mirrors.bounces = view->bounces > 0 ? view->bounces : 5;
+    const live_context context = {stage == 7 ? 6 : stage, &mirrors};
+    const int width = image->width, count = width * image->height;
+    const float dim = room_dim_light.intensity.x / room_light.intensity.x;
+    if (status != RT_OK || stage < 6)
+        return status;
+#ifdef _OPENMP
+    const int threads = rt_thread_count(options->threads);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 512)
+#endif
+    for (int i = 0; i < count; i++)
+        if (rt_is_zero(image->pixels[i])) {
+            rt_rng rng = rt_rng_start((uint32_t)i, 0, 0);
+            const rt_vec3 light = live_pixel(&context, (float)(i % width) + 0.5f,
+                                             (float)(i / width) + 0.5f, &rng);
+            image->pixels[i] = stage == 7 ? rt_scale(light, dim) : light;
+        }
+    return RT_OK;
+}
+
+/* -------------------------------------------------------------------------------------
+ * The camera
+ * ------------------------------------------------------------------------------------- */
+
+static rt_vec3 live_pivot = {0, 7, 0}; /* which it goes round */
+
+/* Its right, up and forward, each of length 1. */
+static void live_axes(rt_vec3 *right, rt_vec3 *up, rt_vec3 *forward)
+{
+    *forward = rt_normalize(room_camera.direction);
+    *right = rt_normalize(rt_cross(*forward, rt_vec(0, 1, 0)));
+    *up = rt_cross(*right, *forward);
+}
+
+/* v turned by an angle, in turns, about the axis, of length 1 (Rodrigues' formula). */
+static rt_vec3 live_turned(rt_vec3 v, rt_vec3 axis, float turns)
+{
+    float sine, cosine;
+    rt_sincos(turns - floorf(turns), &sine, &cosine);
+    const rt_vec3 along = rt_scale(axis, rt_dot(axis, v));
+    return rt_add(along, rt_add(rt_scale(rt_sub(v, along), cosine),
+                                rt_scale(rt_cross(axis, v), sine)));
+}
+
+/* Walls stop the camera: inside a wall there is nothing to see. */
+static void live_camera_to(rt_vec3 position, rt_vec3 pivot)
+{
+    for (int i = 1; i <= 5; i++)
+        if (rt_length(rt_sub(position, room_spheres[i].center)) < room_spheres[i].radius)
+            return;
+    room_camera.position = position;
+    live_pivot = pivot;
+}
+
+static void live_orbit(float right_turns, float up_turns)
+{
+    rt_vec3 right, up, forward;
+    live_axes(&right, &up, &forward);
+    const rt_vec3 from = rt_sub(room_camera.position, live_pivot);
+    const rt_vec3 old = room_camera.position, y = {0, 1, 0};
+    const rt_vec3 raised = live_turned(forward, right, -up_turns);
+    if (fabsf(raised.y) > 0.98f) /* not over the top */
+        return;
+    const rt_vec3 round =
+        live_turned(live_turned(from, right, -up_turns), y, right_turns);
+    live_camera_to(rt_add(live_pivot, round), live_pivot);
+    if (rt_length(rt_sub(room_camera.position, old)) > 0.0f)
+        room_camera.direction = rt_scale(live_turned(raised, y, right_turns), 105.0f);
+}
+
+/* What a pixel is wide, at so far away. */
+static float live_pixel_size(const demo_view *view, float distance)
+{
+    const float half = 0.5f * room_camera.fov_y / 57.29578f;
+    return 2.0f * tanf(half) * distance / (float)view->height;
+}
+
+static void live_pan(const demo_view *view, float right_pixels, float up_pixels)
+{
+    rt_vec3 right, up, forward;
+    live_axes(&right, &up, &forward);
+    const float size =
+        live_pixel_size(view, rt_length(rt_sub(room_camera.position, live_pivot)));
+    const rt_vec3 by =
+        rt_add(rt_scale(right, size * right_pixels), rt_scale(up, size * up_pixels));
+    live_camera_to(rt_add(room_camera.position, by), rt_add(live_pivot, by));
+}
+
+/* Nearer to the pivot, or farther away. */
+static void live_zoom(float factor)
+{
+    const rt_vec3 from = rt_sub(room_camera.position, live_pivot);
+    const float distance = factor * rt_length(from);
+    if (distance > 1.0f && distance < 2000.0f)
+        live_camera_to(rt_add(live_pivot, rt_scale(from, factor)), live_pivot);
+}
+
+/* -------------------------------------------------------------------------------------
+ * Things: the ball, the mirror, the cube, the lamp
+ * ------------------------------------------------------------------------------------- */
+
+enum { BALL = 1, MIRROR, CUBE, LAMP };
+
+static const char *live_name(int thing)
+{
+    static const char *const names[] = {"nothing", "the ball", "the mirror", "the cube",
+                                        "the lamp"};
+    return names[thing];
+}
+
+static rt_vec3 live_middle(int thing)
+{
+    switch (thing) {
+    case BALL: return room_spheres[0].center;
+    case MIRROR: return room_spheres[6].center;
+    case CUBE: return rt_scale(rt_add(room_cube.min, room_cube.max), 0.5f);
+    default: return room_light.position;
+    }
+}
+
+/* How far it reaches about its middle: what must stay off the walls. */
+static float live_reach(int thing)
+{
+    switch (thing) {
+    case BALL: return room_spheres[0].radius;
+    case MIRROR: return room_spheres[6].radius;
+    case CUBE: return 0.5f * (room_cube.max.x - room_cube.min.x);
+    default: return 1.0f;
+    }
+}
+
+static void live_place(int thing, rt_vec3 middle)
+{
+    const rt_vec3 by = rt_sub(middle, live_middle(thing));
+    if (thing == BALL)
+        room_spheres[0].center = middle;
+    if (thing == MIRROR)
+        room_spheres[6].center = middle;
+    if (thing == CUBE) {
+        room_cube.min = rt_add(room_cube.min, by);
+        room_cube.max = rt_add(room_cube.max, by);
+    }
+    if (thing == LAMP)
+        room_light.position = room_dim_light.position = middle;
+}
+
+/* The thing under the point (x, y) of the film; 0: nothing that can be moved. */
+static int live_pick(int stage, const demo_view *view, float x, float y)
+{
+    const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
+    const rt_vec3 to_lamp = rt_sub(room_light.position, ray.origin);
+    const float t = rt_dot(to_lamp, ray.direction); /* where the ray comes by the lamp */
+    const float beside = rt_length(rt_sub(to_lamp, rt_scale(ray.direction, t)));
+    rt_hit hit;
+    const bool found = rt_intersect(live_scenes[stage], &ray, &hit);
+    if (stage > 1 && t > 0.0f && (!found || hit.t > t) && beside < 2.0f)
+        return LAMP;
+    if (!found)
+        return 0;
+    return hit.material == &room_spheres[0].material   ? BALL
+           : hit.material == &room_spheres[6].material ? MIRROR
+           : hit.material == &room_cube.material       ? CUBE
+                                                       : 0;
+}
+
+static float live_clamp(float x, float low, float high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+/* Move it by so many pixels, parallel to the film, or over the floor; walls stop it. */
+static void live_drag(int thing, const demo_view *view, float right_pixels,
+                      float up_pixels, bool over_the_floor)
+{
+    rt_vec3 right, up, forward;
+    live_axes(&right, &up, &forward);
+    rt_vec3 middle = live_middle(thing);
+    const float depth = rt_dot(rt_sub(middle, room_camera.position), forward);
+    const float size = live_pixel_size(view, depth > 1.0f ? depth : 1.0f);
+    if (over_the_floor)
+        up = rt_normalize(rt_vec(forward.x, 0, forward.z));
+    middle = rt_add(middle, rt_add(rt_scale(right, size * right_pixels),
+                                   rt_scale(up, size * up_pixels)));
+    const float reach = live_reach(thing);
+    middle.x = live_clamp(middle.x, -49 + reach, 49 - reach);
+    middle.y = live_clamp(middle.y, -19 + reach, 39 - reach);
+    middle.z = live_clamp(middle.z, -59 + reach, 90 - reach);
+    live_place(thing, middle);
+}
+
+/* -------------------------------------------------------------------------------------
+ * The view: back to the first, and as C code
+ * ------------------------------------------------------------------------------------- */
+
+static void live_reset(void)
+{
+    static bool started;
+    static rt_camera camera;
+    static rt_vec3 middles[LAMP + 1];
+    if (!started) { /* the first call, from main, keeps what there is */
+        camera = room_camera;
+        for (int thing = BALL; thing <= LAMP; thing++)
+            middles[thing] = live_middle(thing);
+    }
+    started = true;
+    room_camera = camera;
+    live_pivot = rt_vec(0, 7, 0);
+    for (int thing = BALL; thing <= LAMP; thing++)
+        live_place(thing, middles[thing]);
+}
+
+static void live_print_vec(const char *before, rt_vec3 v, const char *after)
+{
+    printf("%s{%#.9gf, %#.9gf, %#.9gf}%s", before, (double)v.x, (double)v.y, (double)v.z,
+           after);
+}
+
+/* As the lines of scene.h that would show it. (%.9g brings each float back exactly; the #
+ * gives it a point.) */
+static void live_print(void)
+{
+    live_print_vec("rt_camera room_camera = {", room_camera.position, ", ");
+    live_print_vec("", room_camera.direction, ", ");
+    live_print_vec("", room_camera.up, "");
+    printf(", %#.9gf};\n", (double)room_camera.fov_y);
+    live_print_vec("ball ", room_spheres[0].center, ", ");
+    live_print_vec("mirror ", room_spheres[6].center, ", ");
+    live_print_vec("cube ", room_cube.min, " to ");
+    live_print_vec("", room_cube.max, ", ");
+    live_print_vec("lamp ", room_light.position, "\n");
+}
+
+/* -------------------------------------------------------------------------------------
+ * The ray inspector: lines in the room, and words
+ * ------------------------------------------------------------------------------------- */
+
+typedef struct live_lines {
+    demo_line *lines;
+    int most, count;
+} live_lines;
+
+static void live_line(live_lines *l, demo_kind kind, float weight, rt_vec3 from,
+                      rt_vec3 to)
+{
+    if (l->count < l->most)
+        l->lines[l->count++] = (demo_line){from, to, kind, weight};
+}
+
+static void live_box(live_lines *l, rt_vec3 a, rt_vec3 b)
+{
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++)
+            if ((i >> k & 1) == 0) {
+                const int j = i | 1 << k;
+                live_line(
+                    l, LINE_ROOM, 1,
+                    rt_vec(i & 1 ? b.x : a.x, i & 2 ? b.y : a.y, i & 4 ? b.z : a.z),
+                    rt_vec(j & 1 ? b.x : a.x, j & 2 ? b.y : a.y, j & 4 ? b.z : a.z));
+            }
+}
+
+/* Two circles: one is round from above, the other from the side. */
+static void live_ball(live_lines *l, rt_vec3 O, float R)
+{
+    enum { PARTS = 32 };
+    for (int i = 0; i < PARTS; i++) {
+        float s0, c0, s1, c1;
+        rt_sincos((float)i / PARTS, &s0, &c0);
+        rt_sincos((float)(i + 1) / PARTS, &s1, &c1);
+        live_line(l, LINE_ROOM, 1, rt_add(O, rt_vec(R * c0, 0, R * s0)),
+                  rt_add(O, rt_vec(R * c1, 0, R * s1)));
+        live_line(l, LINE_ROOM, 1, rt_add(O, rt_vec(0, R * c0, R * s0)),
+                  rt_add(O, rt_vec(0, R * c1, R * s1)));
+    }
+}
+
+static int live_outlines(int stage, const demo_view *view, demo_line *lines, int most)
+{
+    live_lines l = {lines, most, 0};
+    if (stage >= 2)
+        live_box(&l, rt_vec(-50, -20, -60), rt_vec(50, 40, 60));
+    live_ball(&l, room_spheres[0].center, room_spheres[0].radius);
+    if (stage >= 3)
+        live_box(&l, room_cube.min, room_cube.max);
+    if (stage >= 6)
+        live_ball(&l, room_spheres[6].center, room_spheres[6].radius);
+    if (stage >= 2)
+        live_ball(&l, room_light.position, 1.0f);
+    for (int i = 0; i < 4; i++) { /* the camera: rays through the corners of the film */
+        const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height,
+                                         i == 0 || i == 3 ? 0.0f : (float)view->width,
+                                         i < 2 ? 0.0f : (float)view->height);
+        live_line(&l, LINE_ROOM, 1, ray.origin, rt_at(&ray, 15.0f));
+    }
+    return l.count;
+}
+
+/* What rt_trace_pixel wrote down, up to where the stage stops, as lines. */
+static void live_draw_path(const rt_path *path, live_lines *l)
+{
+    for (int n = 0; n < path->vertex_count; n++) {
+        const rt_vertex *v = &path->vertices[n];
+        const rt_vec3 P = v->shape < 0
+                              ? rt_at(&v->ray, 60.0f / rt_length(v->ray.direction))
+                              : v->hit.point;
+        const float weight = (v->throughput.x + v->throughput.y + v->throughput.z) / 3.0f;
+        const bool mirrored = n > 0 && path->vertices[n - 1].hit.material->mirror;
+        live_line(l,
+                  n == 0     ? LINE_CAMERA
+                  : mirrored ? LINE_MIRROR
+                             : LINE_DIFFUSE,
+                  weight, v->ray.origin, P);
+        if (v->shape >= 0)
+            live_line(l, LINE_NORMAL, 1, P, rt_add(P, rt_scale(v->hit.normal, 7.0f)));
+        for (int i = 0; i < path->shadow_count; i++) {
+            const rt_shadow *s = &path->shadows[i];
+            if (s->vertex != n)
+                continue;
+            const float t = s->blocker < 0 ? 1.0f : s->t;
+            live_line(l, LINE_LIT, weight, s->ray.origin, rt_at(&s->ray, t));
+            if (s->blocker >= 0)
+                live_line(l, LINE_BLOCKED, 1, rt_at(&s->ray, t), rt_at(&s->ray, 1.0f));
+        }
+    }
+}
+
+/* Two lines for each vertex, to stand beside the plan. */
+static void live_summary(const rt_path *path, FILE *text)
+{
+    for (int n = 0; n < path->vertex_count; n++) {
+        const rt_vertex *v = &path->vertices[n];
+        const rt_vec3 T = v->throughput, adds = rt_mul(T, v->light), N = v->hit.normal;
+        fprintf(text, "%d %s", n, shape_name(v->shape));
+        if (v->shape >= 0)
+            fprintf(text, ", t %.4g, N (%.2f %.2f %.2f)", (double)v->hit.t, (double)N.x,
+                    (double)N.y, (double)N.z);
+        for (int i = 0; i < path->shadow_count; i++)
+            if (path->shadows[i].vertex == n) {
+                const int blocker = path->shadows[i].blocker;
+                fprintf(text, ", lamp %s%s", blocker < 0 ? "seen" : "behind ",
+                        blocker < 0 ? "" : shape_name(blocker));
+            }
+        fprintf(text, "\n  throughput %.3f %.3f %.3f, adds %.4f %.4f %.4f\n", (double)T.x,
+                (double)T.y, (double)T.z, (double)adds.x, (double)adds.y, (double)adds.z);
+    }
+    fprintf(text, "= %.4f %.4f %.4f\n", (double)path->value.x, (double)path->value.y,
+            (double)path->value.z);
+}
+
+static int live_path(int stage, const demo_view *view, const rt_options *options,
+                     const rt_image *image, int x, int y, int sample, demo_line *lines,
+                     int most, FILE *summary, FILE *words)
+{
+    live_lines l = {lines, most, 0};
+    rt_path path = empty_path();
+    rt_options traced = *options;
+    traced.bounces = stage < 6 ? 0 : view->bounces < 90 ? view->bounces : 90;
+    if (rt_trace_pixel(live_scenes[stage], &room_camera, &traced, image, x, y, sample,
+                       &path) != RT_OK)
+        return 0;
+    if (stage < 4)
+        path.shadow_count = 0;
+    for (int n = 0; stage < 6 && n < path.vertex_count; n++)
+        if (path.vertices[n].shape == 6) /* no mirror yet: this is the cube */
+            path.vertices[n].shape = 7;
+    for (int i = 0; stage < 6 && i < path.shadow_count; i++)
+        if (path.shadows[i].blocker == 6)
+            path.shadows[i].blocker = 7;
+    for (int n = 0; stage == 6 && n < path.vertex_count; n++)
+        if (path.vertices[n].shape < 0 || !path.vertices[n].hit.material->mirror) {
+            path.vertex_count = n + 1; /* there chapter 6 stops */
+            path.value = rt_mul(path.vertices[n].throughput, path.vertices[n].light);
+        }
+    live_draw_path(&path, &l);
+    if (summary)
+        live_summary(&path, summary);
+    if (words)
+        print_path(words, &path, sample);
+    return l.count;
+}
+
+static const demo_live live_room = {live_render, live_draft, live_orbit,    live_pan,
+                                    live_zoom,   live_reset, live_pick,     live_name,
+                                    live_drag,   live_print, live_outlines, live_path};
+
+#endif

@@ -1,0 +1,882 @@
+/* The window of the demos, a part of demo.c: a picture that refines, a camera and things that
+ * move, the chapters' stages side by side, and the ray inspector. It knows nothing of rays:
+ * the demo's demo_live does (see demo.h). Text, and lines that are smooth, need SDL2_gfx;
+ * without it the window works, and the title says what is to be said. */
+
+static rt_options options_of(run *r);
+static bool finish(run *r, rt_status status, double took);
+
+#ifdef HAVE_GFX
+#include <SDL2_gfxPrimitives.h>
+#endif
+
+static const char *const window_help[] = {
+    "drag        the ball, the cube, the mirror, the lamp; elsewhere: go round",
+    "  + Shift   over the floor and not up",
+    "right drag  the camera sideways;  wheel, PgUp, PgDn: nearer, farther",
+    "arrows      go round (left, right: the sample, while a ray is shown)",
+    "1 ... 7     the same view in chapter 1 ... 7",
+    "b (hold)    the other picture; o: which one that is",
+    "click       show the ray of this pixel; i: and no more",
+    "v           the plan from above, or from the side",
+    "z           a magnifying glass, with the numbers of the pixel",
+    "+  -        samples        ]  [   bounces",
+    "g  gamma    l  numbers     p  packets     t  threads",
+    "r           all as at first",
+    "s           save the picture, and print the camera as C code",
+    "h           these lines            q, Esc   the end",
+};
+
+enum { BEFORE, ONE_SAMPLE, BY_RT_H, COMPARISONS };
+static const char *const comparison_names[COMPARISONS] = {
+    "the chapter before", "one sample", "rt.h's own function"};
+
+enum { MOST_LINES = 1000 };
+
+typedef struct window {
+    SDL_Window *window;
+    SDL_Renderer *renderer;
+    SDL_Texture *texture;
+    SDL_Rect area;  /* of the picture, in pixels of the screen */
+    float density;  /* such pixels for one of the mouse's */
+    rt_image draft; /* while something moves */
+    rt_image other; /* to compare with */
+    settings first; /* what the command line wanted, for r */
+    bool finished;  /* it is there, and written */
+    bool disturbed; /* it is no longer the picture that the command line wanted */
+    bool changed;   /* what is seen has changed, so the pictures are void */
+    bool stop;      /* let the rendering stop: something else is to be done */
+    int stage;      /* 1 to 7 */
+    bool plain;     /* bytes without gamma */
+    int samples;    /* that the picture is to have */
+    double moving;  /* until then only drafts */
+    int shrink;     /* the draft is so many times smaller */
+    double rendered, refining; /* seconds, for the rays of the image; since when */
+    bool help, hold, glass;
+    int comparison;
+    bool inspect, side;
+    int x, y, sample;       /* of the inspector */
+    int button, thing;      /* what is held by the mouse, 0: nothing */
+    bool dragged;           /* since the button went down */
+    float down_x, down_y;   /* where that was, on the screen */
+    float mouse_x, mouse_y; /* in the picture, in its pixels */
+    int drafts;             /* so far, and for so many seconds */
+    double drafts_took;
+    double polled, slowest; /* the longest time between two looks at the keyboard */
+} window;
+
+/* -------------------------------------------------------------------------------------
+ * What is to be shown
+ * ------------------------------------------------------------------------------------- */
+
+static int own_stage(const run *r)
+{
+    const int chapter = atoi(r->d->name + 4); /* demo05 */
+    return chapter < 7 ? chapter : 7;
+}
+
+static bool is_own(const run *r, int stage)
+{
+    return !r->d->live || stage == own_stage(r);
+}
+
+static int wanted_samples(const run *r)
+{
+    return r->s.samples > 0 ? (int)r->s.samples : r->d->samples;
+}
+
+static unsigned char (*encoder(const run *r))(float value)
+{
+    const window *w = r->win;
+    if (!w)
+        return r->d->encode;
+    if (w->plain)
+        return demo_linear;
+    const int stage = w->stage - (w->hold && w->comparison == BEFORE);
+    return is_own(r, stage) ? r->d->encode : stage < 5 ? demo_linear : demo_gamma;
+}
+
+static void forget(rt_image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    memset(image->pixels, 0, count * sizeof *image->pixels);
+    if (image->half)
+        memset(image->half, 0, count * sizeof *image->half);
+    image->samples = image->done = 0;
+    image->rays = 0;
+}
+
+/* What is seen has changed: draw drafts for a while, and begin anew. */
+static void change(run *r)
+{
+    r->win->changed = r->win->stop = r->win->disturbed = true;
+}
+
+static void begin_anew(run *r)
+{
+    window *w = r->win;
+    const size_t count = (size_t)r->image.width * (size_t)r->image.height;
+    if (!r->image.half) /* from here on, say how large the error is */
+        r->image.half = calloc(count, sizeof *r->image.half);
+    forget(&r->image);
+    forget(&w->other);
+    w->rendered = 0.0;
+    w->changed = false;
+}
+
+/* -------------------------------------------------------------------------------------
+ * Drawing
+ * ------------------------------------------------------------------------------------- */
+
+static void draw_text(run *r, int x, int y, const char *text, bool dark)
+{
+#ifdef HAVE_GFX
+    const window *w = r->win;
+    const float k = w->density > 1.5f ? roundf(w->density) : 1.0f;
+    const unsigned char c = dark ? 40 : 240;
+    SDL_RenderSetScale(w->renderer, k, k);
+    stringRGBA(w->renderer, (Sint16)((float)x / k), (Sint16)((float)y / k), text, c, c, c,
+               255);
+    SDL_RenderSetScale(w->renderer, 1.0f, 1.0f);
+#else
+    (void)r, (void)x, (void)y, (void)text, (void)dark;
+#endif
+}
+
+static int text_height(const run *r)
+{
+    return 11 * (r->win->density > 1.5f ? (int)roundf(r->win->density) : 1);
+}
+
+static void draw_line(SDL_Renderer *renderer, float x0, float y0, float x1, float y1,
+                      float width, SDL_Color c)
+{
+#ifdef HAVE_GFX
+    if (width < 2.0f)
+        aalineRGBA(renderer, (Sint16)x0, (Sint16)y0, (Sint16)x1, (Sint16)y1, c.r, c.g,
+                   c.b, 255);
+    else
+        thickLineRGBA(renderer, (Sint16)x0, (Sint16)y0, (Sint16)x1, (Sint16)y1,
+                      (Uint8)width, c.r, c.g, c.b, 255);
+#else
+    (void)width;
+    SDL_SetRenderDrawColor(renderer, c.r, c.g, c.b, 255);
+    SDL_RenderDrawLine(renderer, (int)x0, (int)y0, (int)x1, (int)y1);
+#endif
+}
+
+/* Where things are on the screen: the picture, and beside it, if rays are shown, the plan
+ * and words below it. */
+static void lay_out(run *r, SDL_Rect *plan, SDL_Rect *words)
+{
+    window *w = r->win;
+    int width = 1, height = 1, points = 1, ignored;
+    SDL_GetRendererOutputSize(w->renderer, &width, &height);
+    SDL_GetWindowSize(w->window, &points, &ignored);
+    w->density = points > 0 ? (float)width / (float)points : 1.0f;
+    const int left = w->inspect && width > 1 ? width / 2 : width;
+    const double zoom =
+        fmin((double)left / r->image.width, (double)height / r->image.height);
+    w->area.w = (int)fmax(1.0, zoom * r->image.width);
+    w->area.h = (int)fmax(1.0, zoom * r->image.height);
+    w->area.x = (left - w->area.w) / 2;
+    w->area.y = (height - w->area.h) / 2;
+    *plan = (SDL_Rect){left, 0, width - left, height * 6 / 10};
+    *words = (SDL_Rect){left, plan->h, plan->w, height - plan->h};
+}
+
+static void draw_words(run *r, char *text, SDL_Rect words)
+{
+    int y = words.y + 4;
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
+        draw_text(r, words.x + 6, y, line, true);
+        y += text_height(r);
+    }
+}
+
+static const SDL_Color line_colours[] = {/* as demo_kind */
+                                         {170, 170, 170, 255}, {33, 113, 181, 255},
+                                         {190, 30, 140, 255},  {0, 140, 130, 255},
+                                         {90, 160, 60, 255},   {230, 170, 0, 255},
+                                         {30, 30, 30, 255}};
+
+static void draw_legend(run *r, SDL_Rect plan)
+{
+    static const char *const names[] = {"",       "camera", "matt",     "mirror",
+                                        "normal", "lamp",   "in shadow"};
+    int x = plan.x + 6;
+    for (int kind = LINE_CAMERA; kind <= LINE_BLOCKED; kind++) {
+        const SDL_Color c = line_colours[kind];
+        const int size = text_height(r) - 3;
+        const SDL_Rect box = {x, plan.y + 6, size, size};
+        SDL_SetRenderDrawColor(r->win->renderer, c.r, c.g, c.b, 255);
+        SDL_RenderFillRect(r->win->renderer, &box);
+        draw_text(r, x + size + 4, plan.y + 6, names[kind], true);
+        x += size * ((int)strlen(names[kind]) + 3);
+    }
+}
+
+/* The lines, seen from above (x to the right, z down) or from the side (z to the right, y
+ * up), as large as the outlines of the room allow. */
+static void draw_lines(run *r, const demo_line *lines, int outlines, int count,
+                       SDL_Rect at)
+{
+    const bool side = r->win->side;
+    float low[2] = {FLT_MAX, FLT_MAX}, high[2] = {-FLT_MAX, -FLT_MAX};
+    for (int i = 0; i < outlines; i++)
+        for (int end = 0; end < 2; end++) {
+            const rt_vec3 p = end ? lines[i].to : lines[i].from;
+            const float q[2] = {side ? p.z : p.x, side ? -p.y : p.z};
+            for (int k = 0; k < 2; k++) {
+                low[k] = fminf(low[k], q[k]);
+                high[k] = fmaxf(high[k], q[k]);
+            }
+        }
+    const float scale = fminf(0.94f * (float)at.w / (high[0] - low[0]),
+                              0.94f * (float)at.h / (high[1] - low[1]));
+    const float x = (float)at.x + 0.5f * ((float)at.w - scale * (low[0] + high[0]));
+    const float y = (float)at.y + 0.5f * ((float)at.h - scale * (low[1] + high[1]));
+    if (!(scale > 0.0f && scale < 1e6f))
+        return;
+    SDL_RenderSetClipRect(r->win->renderer, &at);
+    for (int i = 0; i < count; i++) {
+        const demo_line *l = &lines[i];
+        const bool path = l->kind == LINE_CAMERA || l->kind == LINE_DIFFUSE ||
+                          l->kind == LINE_MIRROR || l->kind == LINE_LIT;
+        const float ends[4] = {side ? l->from.z : l->from.x,
+                               side ? -l->from.y : l->from.z, side ? l->to.z : l->to.x,
+                               side ? -l->to.y : l->to.z};
+        float q[4];
+        for (int k = 0; k < 4; k++) /* Sint16 is what SDL2_gfx takes */
+            q[k] = fmaxf(-9999.0f, fminf(9999.0f, (k % 2 ? y : x) + scale * ends[k]));
+        draw_line(r->win->renderer, q[0], q[1], q[2], q[3],
+                  path ? 1.0f + 3.0f * l->weight : 1.0f, line_colours[l->kind]);
+    }
+    SDL_RenderSetClipRect(r->win->renderer, NULL);
+}
+
+/* The inspector: plan and words; the same in words, as --explain does, to where it is asked
+ * (NULL: nowhere). */
+static void draw_path(run *r, SDL_Rect plan, SDL_Rect at, FILE *words)
+{
+    static demo_line lines[MOST_LINES];
+    window *w = r->win;
+    const rt_options options = options_of(r);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *summary = open_memstream(&text, &size);
+    const demo_live *live = r->d->live;
+    const int outlines = live->outlines(w->stage, &r->view, lines, MOST_LINES);
+    if (summary)
+        fprintf(summary, "pixel %d,%d, sample %d, from %s (v)\n", w->x, w->y, w->sample,
+                w->side ? "the side" : "above");
+    const int count = outlines + live->path(w->stage, &r->view, &options, &r->image, w->x,
+                                            w->y, w->sample, lines + outlines,
+                                            MOST_LINES - outlines, summary, words);
+    if (w->renderer && !words) {
+        SDL_SetRenderDrawColor(w->renderer, 250, 250, 250, 255);
+        SDL_RenderFillRect(w->renderer, &plan);
+        SDL_RenderFillRect(w->renderer, &at);
+        draw_legend(r, plan);
+        plan.y += 2 * text_height(r);
+        plan.h -= 2 * text_height(r);
+        draw_lines(r, lines, outlines, count, plan);
+    }
+    if (summary && fclose(summary) == 0 && !words)
+        draw_words(r, text, at);
+    free(text);
+}
+
+/* Eleven by eleven pixels about the mouse, magnified. */
+static void draw_glass(run *r, const rt_image *shown)
+{
+    enum { SIDE = 11, SIZE = 12 };
+    const window *w = r->win;
+    const int cx = (int)(w->mouse_x * (float)shown->width / (float)r->image.width);
+    const int cy = (int)(w->mouse_y * (float)shown->height / (float)r->image.height);
+    for (int j = 0; j < SIDE; j++)
+        for (int i = 0; i < SIDE; i++) {
+            const int x = cx + i - SIDE / 2, y = cy + j - SIDE / 2;
+            const bool inside = x >= 0 && y >= 0 && x < shown->width && y < shown->height;
+            const unsigned char *c = r->bytes + (inside ? 3 * (y * shown->width + x) : 0);
+            const SDL_Rect at = {w->area.x + 8 + i * SIZE, w->area.y + 8 + j * SIZE, SIZE,
+                                 SIZE};
+            SDL_SetRenderDrawColor(w->renderer, inside ? c[0] : 0, inside ? c[1] : 0,
+                                   inside ? c[2] : 0, 255);
+            SDL_RenderFillRect(w->renderer, &at);
+        }
+    const int half = SIDE / 2 * SIZE + 8;
+    const SDL_Rect middle = {w->area.x + half, w->area.y + half, SIZE, SIZE};
+    SDL_SetRenderDrawColor(w->renderer, 255, 255, 255, 255);
+    SDL_RenderDrawRect(w->renderer, &middle);
+}
+
+/* The numbers of the pixel under the glass: linear, and encoded. */
+static void describe_pixel(const run *r, const rt_image *shown, char *text, size_t size)
+{
+    const window *w = r->win;
+    const int x = (int)(w->mouse_x * (float)shown->width / (float)r->image.width);
+    const int y = (int)(w->mouse_y * (float)shown->height / (float)r->image.height);
+    text[0] = '\0';
+    if (x < 0 || y < 0 || x >= shown->width || y >= shown->height)
+        return;
+    const rt_vec3 c = shown->pixels[y * shown->width + x];
+    const unsigned char *b = r->bytes + 3 * (y * shown->width + x);
+    snprintf(text, size, "%d,%d: %.4g %.4g %.4g -> %d %d %d", x, y, (double)c.x,
+             (double)c.y, (double)c.z, b[0], b[1], b[2]);
+}
+
+static void set_title(run *r, const rt_image *shown, const char *pixel)
+{
+    static const char *const names[] = {"",        "sphere", "walls",  "cube",
+                                        "shadows", "gamma",  "mirror", "indirect light"};
+    const window *w = r->win;
+    char title[400] = "", result[100];
+    FILE *t = fmemopen(title, sizeof title, "w");
+    if (!t)
+        return;
+    fprintf(t, "%s - ", r->d->title);
+    if (r->d->live)
+        fprintf(t, "%d %s%s, ", w->stage, names[w->stage],
+                is_own(r, w->stage) ? " (the demo's)" : "");
+    if (w->hold)
+        fprintf(t, "held: %s, ", comparison_names[w->comparison]);
+    if (shown == &w->draft) {
+        fprintf(t, "direct light, %.0f a second", w->drafts / fmax(w->drafts_took, 1e-9));
+    } else {
+        const double since = w->refining > 0.0 ? demo_seconds() - w->refining : 0.0;
+        describe(shown, result, sizeof result);
+        fprintf(t, "%s", result);
+        if (shown->samples < w->samples && !w->hold)
+            fprintf(t, " (%d wanted)", w->samples);
+        fprintf(t, ", %.1f Mrays/s",
+                (double)shown->rays * 1e-6 / fmax(w->rendered + since, 1e-3));
+    }
+    if (w->stage == 7 && !(r->d->pixel && is_own(r, 7)))
+        fprintf(t, ", %d at a time", rt_lane_count((int)r->s.lanes));
+    const int threads = rt_thread_count((int)r->s.threads);
+    fprintf(t, ", %d thread%s, %lld bounce%s, %s%s%s (h: keys)", threads, plural(threads),
+            r->s.bounces, plural(r->s.bounces),
+            r->s.sampler == RT_RANDOM ? "random" : "sobol", *pixel ? " - " : "", pixel);
+    fclose(t);
+    SDL_SetWindowTitle(w->window, title);
+}
+
+static const rt_image *shown_image(const run *r)
+{
+    const window *w = r->win;
+    const rt_image *image = w->hold ? &w->other : &r->image;
+    const bool nothing_yet = w->disturbed && image->samples == 0;
+    return w->moving > 0.0 || nothing_yet ? &w->draft : image;
+}
+
+static void draw(run *r)
+{
+    window *w = r->win;
+    SDL_Rect plan, words;
+    char pixel[120] = "";
+    const rt_image *shown = shown_image(r);
+    const SDL_Rect part = {0, 0, shown->width, shown->height};
+    lay_out(r, &plan, &words);
+    encode(r, shown);
+    SDL_UpdateTexture(w->texture, &part, r->bytes, 3 * shown->width);
+    SDL_SetRenderDrawColor(w->renderer, 0, 0, 0, 255);
+    SDL_RenderClear(w->renderer);
+    SDL_RenderCopy(w->renderer, w->texture, &part, &w->area);
+    if (w->inspect) {
+        const float zoom = (float)w->area.w / (float)r->image.width;
+        const int x = w->area.x + (int)(zoom * ((float)w->x + 0.5f));
+        const int y = w->area.y + (int)(zoom * ((float)w->y + 0.5f));
+        const SDL_Rect cross[2] = {{x - 8, y, 17, 1}, {x, y - 8, 1, 17}};
+        SDL_SetRenderDrawColor(w->renderer, 255, 255, 255, 255);
+        SDL_RenderFillRects(w->renderer, cross, 2);
+        draw_path(r, plan, words, NULL);
+    }
+    if (w->glass) {
+        draw_glass(r, shown);
+        describe_pixel(r, shown, pixel, sizeof pixel);
+        draw_text(r, w->area.x + 8, w->area.y + 146, pixel, false);
+    }
+    if (w->help) {
+        const int lines = (int)(sizeof window_help / sizeof window_help[0]);
+        const SDL_Rect box = {w->area.x, w->area.y, 620 * text_height(r) / 11,
+                              (lines + 1) * text_height(r)};
+        SDL_SetRenderDrawBlendMode(w->renderer, SDL_BLENDMODE_BLEND);
+        SDL_SetRenderDrawColor(w->renderer, 0, 0, 0, 190);
+        SDL_RenderFillRect(w->renderer, &box);
+        for (int i = 0; i < lines; i++)
+            draw_text(r, box.x + 8, box.y + 6 + i * text_height(r), window_help[i],
+                      false);
+    }
+    set_title(r, shown, pixel);
+    SDL_RenderPresent(w->renderer);
+}
+
+/* -------------------------------------------------------------------------------------
+ * Events
+ * ------------------------------------------------------------------------------------- */
+
+static void say_what_is_under(run *r)
+{
+    SDL_Rect plan = {0, 0, 1, 1};
+    if (r->s.quiet)
+        return;
+    end_progress(r);
+    printf("%s: pixel %d,%d of %d x %d, %d bounce%s\n", r->d->name, r->win->x, r->win->y,
+           r->image.width, r->image.height, (int)r->s.bounces, plural(r->s.bounces));
+    draw_path(r, plan, plan, stdout);
+    fflush(stdout);
+}
+
+static void inspect(run *r, int x, int y)
+{
+    window *w = r->win;
+    SDL_Rect desk;
+    int width, height;
+    if (x < 0 || y < 0 || x >= r->image.width || y >= r->image.height)
+        return;
+    if (!w->inspect && SDL_GetDisplayUsableBounds(0, &desk) == 0) {
+        SDL_GetWindowSize(w->window, &width, &height);
+        SDL_SetWindowSize(w->window, 2 * width < desk.w ? 2 * width : desk.w, height);
+        SDL_SetWindowPosition(w->window, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED);
+    }
+    if (!w->inspect)
+        w->sample = 0;
+    w->inspect = true;
+    w->x = x;
+    w->y = y;
+}
+
+static void inspect_no_more(run *r)
+{
+    int width, height;
+    SDL_GetWindowSize(r->win->window, &width, &height);
+    SDL_SetWindowSize(r->win->window, width / 2, height);
+    r->win->inspect = false;
+}
+
+static void handle_key(run *r, SDL_Keycode key, bool repeated)
+{
+    window *w = r->win;
+    const demo_live *live = r->d->live;
+    const float step = 1.0f / 64.0f;
+    r->draw_due = 0.0;
+    if (key == SDLK_ESCAPE || key == SDLK_q)
+        r->closed = true;
+    if (key == SDLK_s)
+        w->polled = 0.0; /* it writes the file */
+    if (key == SDLK_s && !repeated && save(r) && !r->s.quiet) {
+        end_progress(r);
+        printf("%s: saved %s\n", r->d->name, r->s.out);
+        if (live)
+            live->print();
+        fflush(stdout);
+    }
+    if (key == SDLK_z)
+        w->glass = !w->glass;
+    if (key == SDLK_h) {
+        w->help = !w->help;
+#ifndef HAVE_GFX
+        for (size_t i = 0; i < sizeof window_help / sizeof window_help[0] && w->help; i++)
+            printf("%s\n", window_help[i]);
+#endif
+    }
+    if (key == SDLK_PLUS || key == SDLK_EQUALS || key == SDLK_KP_PLUS)
+        w->samples = w->samples < 1 << 20 ? 2 * w->samples : w->samples;
+    if (key == SDLK_MINUS || key == SDLK_KP_MINUS)
+        w->samples = w->samples > 1 ? w->samples / 2 : 1;
+    if (key == SDLK_PLUS || key == SDLK_EQUALS || key == SDLK_KP_PLUS ||
+        key == SDLK_MINUS || key == SDLK_KP_MINUS)
+        w->stop = w->disturbed = true; /* what there is already, stays */
+    if (key == SDLK_g)
+        w->plain = !w->plain;
+    if (key == SDLK_t)
+        r->s.threads = rt_thread_count((int)r->s.threads) >= rt_thread_count(0)
+                           ? 1
+                           : rt_thread_count((int)r->s.threads) + 1;
+    if (key == SDLK_p)
+        r->s.lanes = r->s.lanes == 1 ? 0 : 1;
+    if (key == SDLK_t || key == SDLK_p) {
+        w->stop = true;
+        w->rendered = 0.0;
+        r->image.rays = w->other.rays = 0; /* the speed is counted anew, */
+    }
+    if (!live)
+        return;
+    if (key == SDLK_l)
+        r->s.sampler = r->s.sampler == RT_RANDOM ? RT_SOBOL : RT_RANDOM;
+    if (key == SDLK_RIGHTBRACKET && r->s.bounces < 90)
+        r->s.bounces++;
+    if (key == SDLK_LEFTBRACKET && r->s.bounces > 0)
+        r->s.bounces--;
+    if (key >= SDLK_1 && key <= SDLK_7)
+        w->stage = (int)(key - SDLK_0);
+    if (key == SDLK_r) {
+        live->reset();
+        r->s = w->first;
+        w->stage = own_stage(r);
+        w->samples = wanted_samples(r);
+        w->plain = w->glass = w->help = w->side = false;
+        w->comparison = BEFORE;
+    }
+    r->view.bounces = (int)r->s.bounces;
+    if (key == SDLK_b && !w->hold) {
+        w->hold = w->stop = true;
+        w->rendered = 0.0;
+    }
+    if (key == SDLK_o) {
+        w->comparison = (w->comparison + 1) % COMPARISONS;
+        forget(&w->other);
+        w->stop = true;
+    }
+    if (key == SDLK_v)
+        w->side = !w->side;
+    if (key == SDLK_i && w->inspect)
+        inspect_no_more(r);
+    if (w->inspect && (key == SDLK_LEFT || key == SDLK_RIGHT)) {
+        w->sample += key == SDLK_RIGHT ? 1 : w->sample > 0 ? -1 : 0;
+        return;
+    }
+    if (key == SDLK_LEFT || key == SDLK_RIGHT)
+        live->orbit(key == SDLK_RIGHT ? step : -step, 0);
+    if (key == SDLK_UP || key == SDLK_DOWN)
+        live->orbit(0, key == SDLK_UP ? step : -step);
+    if (key == SDLK_PAGEUP || key == SDLK_PAGEDOWN)
+        live->zoom(key == SDLK_PAGEUP ? 0.9f : 1.0f / 0.9f);
+    if (key == SDLK_l || key == SDLK_RIGHTBRACKET || key == SDLK_LEFTBRACKET ||
+        (key >= SDLK_1 && key <= SDLK_7) || key == SDLK_r || key == SDLK_LEFT ||
+        key == SDLK_RIGHT || key == SDLK_UP || key == SDLK_DOWN || key == SDLK_PAGEUP ||
+        key == SDLK_PAGEDOWN)
+        change(r);
+}
+
+static void handle_motion(run *r, float x, float y)
+{
+    window *w = r->win;
+    const demo_live *live = r->d->live;
+    const float old_x = w->mouse_x, old_y = w->mouse_y;
+    w->mouse_x = (x - (float)w->area.x) * (float)r->image.width / (float)w->area.w;
+    w->mouse_y = (y - (float)w->area.y) * (float)r->image.height / (float)w->area.h;
+    const float right = w->mouse_x - old_x, up = old_y - w->mouse_y;
+    const bool inside = w->mouse_x >= 0.0f && w->mouse_y >= 0.0f &&
+                        w->mouse_x < (float)r->image.width &&
+                        w->mouse_y < (float)r->image.height;
+    if (w->glass)
+        r->draw_due = 0.0;
+    if (fabsf(x - w->down_x) + fabsf(y - w->down_y) > 4.0f)
+        w->dragged = true;
+    if (w->button != 0 && w->dragged && live) {
+        const float turn = 0.5f / (float)r->image.width;
+        if (w->button != SDL_BUTTON_LEFT)
+            live->pan(&r->view, -right, -up);
+        else if (w->thing != 0)
+            live->drag(w->thing, &r->view, right, up,
+                       (SDL_GetModState() & KMOD_SHIFT) != 0);
+        else
+            live->orbit(-turn * right, -turn * up);
+        change(r);
+    } else if (w->inspect && w->button == 0 && inside) {
+        inspect(r, (int)w->mouse_x, (int)w->mouse_y);
+        r->draw_due = 0.0;
+    }
+}
+
+static void handle(run *r, const SDL_Event *e)
+{
+    window *w = r->win;
+    const demo_live *live = r->d->live;
+    switch (e->type) {
+    case SDL_QUIT: r->closed = true; break;
+    case SDL_WINDOWEVENT:
+    case SDL_RENDER_TARGETS_RESET: r->draw_due = 0.0; break;
+    case SDL_KEYDOWN:
+        if (!(e->key.keysym.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)))
+            handle_key(r, e->key.keysym.sym, e->key.repeat != 0);
+        break;
+    case SDL_KEYUP:
+        if (e->key.keysym.sym == SDLK_b && w->hold) {
+            w->hold = false;
+            w->stop = true;
+            w->rendered = 0.0;
+            r->draw_due = 0.0;
+        }
+        break;
+    case SDL_MOUSEBUTTONDOWN:
+        handle_motion(r, w->density * (float)e->button.x,
+                      w->density * (float)e->button.y);
+        w->button = e->button.button;
+        w->dragged = false;
+        w->down_x = w->density * (float)e->button.x;
+        w->down_y = w->density * (float)e->button.y;
+        w->thing = live ? live->pick(w->stage, &r->view, w->mouse_x, w->mouse_y) : 0;
+        break;
+    case SDL_MOUSEBUTTONUP:
+        if (live && w->button == SDL_BUTTON_LEFT && !w->dragged && w->mouse_x >= 0.0f &&
+            w->mouse_y >= 0.0f && w->mouse_x < (float)r->image.width &&
+            w->mouse_y < (float)r->image.height) {
+            inspect(r, (int)w->mouse_x, (int)w->mouse_y);
+            say_what_is_under(r);
+            r->draw_due = 0.0;
+        }
+        w->button = 0;
+        break;
+    case SDL_MOUSEMOTION:
+        handle_motion(r, w->density * (float)e->motion.x,
+                      w->density * (float)e->motion.y);
+        break;
+    case SDL_MOUSEWHEEL:
+        if (live && e->wheel.y != 0) {
+            live->zoom(powf(0.9f, (float)e->wheel.y));
+            change(r);
+        }
+        break;
+    default: break;
+    }
+}
+
+static void poll_events(run *r)
+{
+    window *w = r->win;
+    SDL_Event event;
+    const double now = demo_seconds();
+    if (w->polled > 0.0 && now - w->polled > w->slowest)
+        w->slowest = now - w->polled;
+    while (!r->closed && SDL_PollEvent(&event))
+        handle(r, &event);
+    w->polled = demo_seconds();
+}
+
+/* Between two bands of pixels, every few milliseconds, while no thread renders: so the window
+ * answers, and the image may be read. False: stop. */
+static bool window_progress(run *r)
+{
+    poll_events(r);
+    const double now = demo_seconds();
+    if (!r->closed && !r->win->stop && now >= r->draw_due) { /* 30 a second, 5 % of the */
+        draw(r);                                             /* time at most */
+        const double took = demo_seconds() - now;
+        r->draw_due = now + took + (20.0 * took > 0.033 ? 20.0 * took : 0.033);
+    }
+    return !r->closed && !interrupted && !r->win->stop;
+}
+
+/* -------------------------------------------------------------------------------------
+ * The window from its opening to its end
+ * ------------------------------------------------------------------------------------- */
+
+static run *open_run; /* which has a window */
+
+/* Xlib ends the program when the display is lost. Then at least save what there is. */
+static void display_lost(void)
+{
+    if (open_run && !open_run->win->disturbed && !open_run->win->finished) {
+        fprintf(stderr, "%s: the display is gone\n", open_run->d->name);
+        finish(open_run, RT_CANCELLED, demo_seconds() - open_run->started);
+    }
+}
+
+static void close_window(run *r)
+{
+    window *w = r->win;
+    open_run = NULL;
+    SDL_DestroyTexture(w->texture);
+    SDL_DestroyRenderer(w->renderer);
+    SDL_DestroyWindow(w->window);
+    free(w->draft.pixels);
+    free(w->other.pixels);
+    r->win = NULL;
+    SDL_Quit();
+}
+
+/* Without a display SDL succeeds all the same, with a driver that shows nothing, and the
+ * libraries that it asks complain on stderr: on Linux look before asking. */
+static bool have_display(void)
+{
+#ifdef __linux__
+    if (!getenv("DISPLAY") && !getenv("WAYLAND_DISPLAY"))
+        return false;
+#endif
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); /* Ctrl-C is ours */
+    SDL_SetMainReady();
+    if (SDL_Init(SDL_INIT_VIDEO) != 0)
+        return false;
+    const char *driver = SDL_GetCurrentVideoDriver();
+    return driver && strcmp(driver, "offscreen") != 0 && strcmp(driver, "dummy") != 0;
+}
+
+static rt_image new_image(const run *r)
+{
+    rt_image image = {.width = r->image.width, .height = r->image.height};
+    image.pixels = calloc((size_t)image.width * (size_t)image.height, sizeof(rt_vec3));
+    return image;
+}
+
+static void open_window(run *r)
+{
+    static window the_window;
+    window *w = &the_window;
+    const int width = r->image.width, height = r->image.height;
+    const char *why = "no display";
+    r->win = w;
+    w->stage = own_stage(r);
+    w->shrink = 1;
+    w->samples = wanted_samples(r);
+    w->first = r->s;
+    if (have_display()) {
+        SDL_Rect desk = {0, 0, width, height};
+        SDL_GetDisplayUsableBounds(0, &desk);
+        /* small pictures are enlarged, large ones fitted to the desk */
+        double zoom = 1.0;
+        while (width * zoom < 160.0 && height * zoom < 160.0)
+            zoom *= 2.0;
+        SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, zoom > 1.0 ? "nearest" : "linear");
+        if (width * zoom > 0.9 * desk.w)
+            zoom = 0.9 * desk.w / width;
+        if (height * zoom > 0.9 * desk.h)
+            zoom = 0.9 * desk.h / height;
+        w->window = SDL_CreateWindow(
+            r->d->title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+            1 + (int)(width * zoom - 0.5), 1 + (int)(height * zoom - 0.5),
+            SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+        if (w->window)
+            SDL_SetWindowMinimumSize(w->window, 160, 120);
+        if (w->window)
+            w->renderer = SDL_CreateRenderer(w->window, -1, 0);
+        if (w->renderer)
+            w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB24,
+                                           SDL_TEXTUREACCESS_STREAMING, width, height);
+        why = SDL_GetError();
+        w->draft = new_image(r);
+        w->other = new_image(r);
+    }
+    if (w->texture && w->draft.pixels && w->other.pixels) {
+        open_run = r;
+        atexit(display_lost);
+        if (r->d->live)
+            r->d->live->reset();
+        return;
+    }
+    if (!r->s.quiet)
+        printf("%s: no window (%s)\n", r->d->name, why);
+    close_window(r);
+}
+
+static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
+{
+    const run *r = context;
+    return r->d->pixel(&r->view, x, y, rng);
+}
+
+/* Direct light, at once; smaller, where that takes long. */
+static void draw_draft(run *r)
+{
+    window *w = r->win;
+    const double start = demo_seconds();
+    rt_image *image = &w->draft;
+    image->width = (r->image.width + w->shrink - 1) / w->shrink;
+    image->height = (r->image.height + w->shrink - 1) / w->shrink;
+    forget(image);
+    run small = *r;
+    small.view.width = image->width;
+    small.view.height = image->height;
+    rt_options options = options_of(r);
+    options.samples = 1;
+    options.error = options.seconds = 0.0f;
+    options.progress = NULL;
+    const int stage = w->stage - (w->hold && w->comparison == BEFORE && w->stage > 1);
+    if (is_own(r, stage) && r->d->pixel && stage < 7)
+        rt_render_pixels(call_pixel, &small, &options, image);
+    else
+        r->d->live->draft(stage, &small.view, &options, image);
+    draw(r);
+    const double took = demo_seconds() - start;
+    if (took > 0.040 && w->shrink < 4)
+        w->shrink *= 2;
+    else if (took < 0.008 && w->shrink > 1)
+        w->shrink /= 2;
+    w->drafts++;
+    w->drafts_took += took;
+}
+
+/* As many samples as are missing, or until something else is to be done. */
+static rt_status refine(run *r)
+{
+    window *w = r->win;
+    rt_image *image = w->hold ? &w->other : &r->image;
+    rt_options options = options_of(r);
+    int stage = w->stage;
+    if (w->disturbed)
+        options.error = options.seconds = 0.0f;
+    if (w->disturbed || options.samples > 0)
+        options.samples = (w->disturbed ? w->samples : options.samples) - image->samples;
+    if (w->hold && w->comparison == BEFORE && stage > 1)
+        stage--;
+    if (w->hold && w->comparison == ONE_SAMPLE)
+        options.samples = 1;
+    w->refining = demo_seconds();
+    rt_status status;
+    if (!is_own(r, stage) || (w->hold && w->comparison == BY_RT_H && r->d->live))
+        status = r->d->live->render(stage, &r->view, &options, image);
+    else if (r->d->render)
+        status = r->d->render(&options, image);
+    else
+        status = rt_render_pixels(call_pixel, r, &options, image);
+    w->rendered += demo_seconds() - w->refining;
+    w->refining = 0.0;
+    return status;
+}
+
+/* Until it is closed. True, if all went well. */
+static bool live(run *r)
+{
+    window *w = r->win;
+    bool good = true;
+    const double started = demo_seconds();
+    r->draw_due = 0.0;
+    while (!r->closed && !interrupted) {
+        w->stop = false;
+        poll_events(r);
+        const double now = demo_seconds();
+        const rt_image *image = w->hold ? &w->other : &r->image;
+        const int wanted = w->hold && w->comparison == ONE_SAMPLE ? 1 : w->samples;
+        if (w->changed) {
+            begin_anew(r);
+            w->moving = now + 0.15;
+            draw_draft(r);
+        } else if (w->moving > 0.0) { /* a little rest, and then in earnest */
+            if (now < w->moving)
+                SDL_WaitEventTimeout(NULL, (int)(1000.0 * (w->moving - now)) + 1);
+            else
+                w->moving = 0.0;
+            w->polled = 0.0;
+        } else if (w->disturbed || w->hold ? image->samples < wanted : !w->finished) {
+            const rt_status status = refine(r);
+            if (status != RT_OK && status != RT_CANCELLED) {
+                finish(r, status, 0.0);
+                return false;
+            }
+            if (!w->disturbed && !w->hold && (status == RT_OK || interrupted)) {
+                w->finished = true;
+                good = finish(r, status, demo_seconds() - started);
+                w->samples = r->image.samples;
+                w->polled = 0.0; /* it was writing the file */
+            }
+            r->draw_due = 0.0;
+        } else {
+            if (r->draw_due == 0.0)
+                draw(r);
+            r->draw_due = 1.0;
+            SDL_WaitEventTimeout(NULL, 100);
+            w->polled = 0.0; /* nobody had to wait */
+        }
+    }
+    if (!r->s.quiet && !w->finished)
+        printf("%s: closed after %.2f s, before the end\n", r->d->name,
+               demo_seconds() - started);
+    if (!r->s.quiet && w->drafts > 0)
+        printf("%s: %d pictures in motion, %.0f a second; the longest wait for the "
+               "keyboard: "
+               "%.0f ms\n",
+               r->d->name, w->drafts, w->drafts / w->drafts_took, 1e3 * w->slowest);
+    return good;
+}
