@@ -111,6 +111,7 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/sit
 	    $(BUILD)/demo09 320 240 --sampler $$sampler --no-window --quiet \
 	        --out docs/images/demo09-$$sampler.png || exit; \
 	done
+	@tests/check screenshots
 	docs/numbers.sh
 	docs/renew.sh README.md docs/*.md
 	docs/gallery.sh

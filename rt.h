@@ -2224,7 +2224,7 @@ static inline rt_status rt__check_job(const rt_image *image, const rt_options *o
  * everything else that is written is declared inside the loop: that is all it takes for
  * "#pragma omp parallel for" to be right, and -fopenmp for it to be obeyed.
  *
- * A band should last 10 to 30 ms: short enough for a window to answer, long enough not to
+ * A band should last 5 to 20 ms: short enough for a window to answer, long enough not to
  * waste time on waiting for the slowest thread. */
 static inline rt_status rt__run(const rt__job *job)
 {
@@ -2256,9 +2256,9 @@ static inline rt_status rt__run(const rt__job *job)
             for (int sample = image->samples; sample < end; sample++)
                 rays += job->step(job, sample, i, last - i > chunk ? i + chunk : last);
         const double now = rt__seconds();
-        if (now - start < 0.01)
+        if (now - start < 0.005)
             band = band > INT_MAX / 2 ? INT_MAX : 2 * band;
-        else if (now - start > 0.03 && band > 64)
+        else if (now - start > 0.02 && band > 64)
             band = band / 2;
 
         image->rays += rays;

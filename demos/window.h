@@ -479,6 +479,7 @@ static void handle_key(run *r, SDL_Keycode key, bool repeated)
 #ifndef HAVE_GFX
         for (size_t i = 0; i < sizeof window_help / sizeof window_help[0] && w->help; i++)
             printf("%s\n", window_help[i]);
+        fflush(stdout);
 #endif
     }
     if (key == SDLK_PLUS || key == SDLK_EQUALS || key == SDLK_KP_PLUS)

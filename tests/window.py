@@ -1,0 +1,523 @@
+"""The window, for real: under Xvfb, with keys and mouse sent by xdotool.
+
+    tests/window.py                  every test, one line for each that fails
+    tests/window.py NAME...          some of them
+    tests/window.py --pictures DIR   the screenshots of docs/window.md
+
+Needs Xvfb, xdotool and xwd, and the demos in build/ (or in $DEMOS).
+"""
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+DEMOS = os.path.abspath(os.environ.get("DEMOS", "build"))
+WORK = tempfile.mkdtemp()
+ENV = dict(os.environ, OMP_WAIT_POLICY="passive")
+
+
+def until(condition, seconds=20.0):
+    """Wait until the condition holds; its value."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.01)
+    raise AssertionError("waited %g s in vain" % seconds)
+
+
+class Display:
+    """An X server of our own."""
+
+    def __init__(self, size="1600x900"):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", size + "x24"],
+            pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        number = b""
+        while not number.endswith(b"\n"):
+            number += os.read(read, 1)
+        os.close(read)
+        self.name = ":" + number.decode().strip()
+
+    def close(self):
+        self.server.kill()
+        self.server.wait()
+
+
+class Window:
+    """A demo with its window."""
+    latest = None
+
+    def __init__(self, display, demo, *arguments, env=None):
+        Window.latest = self
+        self.env = dict(ENV, DISPLAY=display.name, **(env or {}))
+        self.out = os.path.join(WORK, "w.png")
+        self.log = os.path.join(WORK, "log")
+        if os.path.exists(self.out):
+            os.remove(self.out)
+        with open(self.log, "w") as log:
+            self.process = subprocess.Popen(
+                [DEMOS + "/" + demo, *arguments, "--out", self.out], env=self.env,
+                stdout=log, stderr=subprocess.STDOUT)
+        search = ("search", "--onlyvisible", "--pid", str(self.process.pid))
+        self.id = until(lambda: self.xdotool(*search)).split()[-1]
+        self.xdotool("windowfocus", "--sync", self.id)  # there is no window manager
+
+    def xdotool(self, *words):
+        done = subprocess.run(["xdotool", *words], env=self.env, stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, check=False)
+        return done.stdout.decode().strip()
+
+    def title(self):
+        return self.xdotool("getwindowname", self.id)
+
+    def wait(self, pattern, seconds=20.0):
+        """Until the title matches; the match."""
+        try:
+            return until(lambda: re.search(pattern, self.title()), seconds)
+        except AssertionError:
+            raise AssertionError("no '%s' in '%s'" % (pattern, self.title())) from None
+
+    def key(self, *keys):
+        for key in keys:
+            self.xdotool("key", key)
+
+    def move(self, x, y):
+        self.xdotool("mousemove", "--window", self.id, str(x), str(y))
+
+    def click(self, x, y):
+        self.move(x, y)
+        self.xdotool("click", "1")
+
+    def drag(self, x, y, dx, dy, steps=20, button="1"):
+        self.move(x, y)
+        self.xdotool("mousedown", button)
+        for _ in range(steps):
+            self.xdotool("mousemove_relative", "--", str(dx // steps), str(dy // steps))
+        self.xdotool("mouseup", button)
+
+    def said(self):
+        with open(self.log) as log:
+            return log.read()
+
+    def save(self):
+        """Press s; the bytes of the picture and what was printed."""
+        before = self.said().count("saved")
+        self.key("s")
+        until(lambda: self.said().count("lamp {") > before)
+        with open(self.out, "rb") as file:
+            return file.read(), self.said()
+
+    def screen(self):
+        """What is on the screen: width, height, rows of RGB bytes."""
+        time.sleep(0.3)
+        dump = subprocess.run(["xwd", "-silent", "-id", self.id], env=self.env,
+                              stdout=subprocess.PIPE, check=True).stdout
+        head = struct.unpack(">25I", dump[:100])
+        size, width, height, line, colours = head[0], head[4], head[5], head[12], head[19]
+        start = size + 12 * colours
+        rows = []
+        for y in range(height):
+            row = dump[start + y * line:start + y * line + 4 * width]
+            rgb = bytearray(3 * width)
+            rgb[0::3], rgb[1::3], rgb[2::3] = row[2::4], row[1::4], row[0::4]
+            rows.append(bytes(rgb))
+        return width, height, rows
+
+    def end(self):
+        """Press q; seconds until it was gone, and what it said."""
+        start = time.monotonic()
+        self.key("q")
+        code = self.process.wait(10)
+        took = time.monotonic() - start
+        assert code == 0, "exit status %d: %s" % (code, self.said())
+        return took, self.said()
+
+
+def expected(demo, *arguments):
+    """What the demo writes without a window."""
+    out = os.path.join(WORK, "e.png")
+    subprocess.run([DEMOS + "/" + demo, *arguments, "--no-window", "--quiet", "--out", out],
+                   env=ENV, check=True)
+    with open(out, "rb") as file:
+        return file.read()
+
+
+SMALL = ("160", "120", "--samples", "4")
+NAMES = ["", "sphere", "walls", "cube", "shadows", "gamma", "mirror", "indirect light"]
+
+
+def test_the_stages_are_the_pictures_of_the_demos(display):
+    window = Window(display, "demo07", *SMALL)
+    window.wait("4 samples")
+    for stage in (1, 2, 3, 4, 5, 6, 7):
+        window.key(str(stage))
+        window.wait(r"%d %s.*, 4 samples, error" % (stage, NAMES[stage]))
+        picture, _ = window.save()
+        assert picture == expected("demo0%d" % stage, *SMALL), "stage %d" % stage
+    window.end()
+
+
+def test_the_demos_own_function_moves(display):
+    """Each demo has its own function in its own stage, and the camera moves it."""
+    for demo in (1, 2, 3, 4, 5, 6, 8, 9):
+        stage = min(demo, 7)
+        window = Window(display, "demo0%d" % demo, *SMALL)
+        window.wait(r"%d %s \(the demo's\), 4 samples" % (stage, NAMES[stage]))
+        before, _ = window.save()
+        window.key("Left")
+        window.wait(r"\(the demo's\), 4 samples, error")
+        after, _ = window.save()
+        assert before != after, "demo %d did not move" % demo
+        window.end()
+
+
+def test_the_first_picture_is_that_of_the_command_line(display):
+    window = Window(display, "demo07", *SMALL)
+    until(lambda: "wrote" in window.said())
+    with open(window.out, "rb") as file:
+        assert file.read() == expected("demo07", *SMALL)
+    window.end()
+
+
+def test_keys_change_what_they_say(display):
+    window = Window(display, "demo08", *SMALL, "--threads", "1")
+    for key, pattern in [("plus", ", 8 samples"), ("minus", ", 8 samples"),
+                         ("bracketright", "6 bounces"), ("bracketleft", "5 bounces"),
+                         ("l", "random"), ("l", "sobol"), ("p", ", 1 at a time"),
+                         ("t", "2 threads"), ("t", "1 thread,")]:
+        window.key(key)
+        window.wait(pattern)
+    window.end()
+
+
+def test_keys_that_change_the_screen(display):
+    window = Window(display, "demo05", "320", "240", "--samples", "1")
+    window.wait("1 sample")
+    window.move(100, 100)
+    screens = [window.screen()]
+    for key in ("h", "h", "g", "g", "z", "z"):
+        window.key(key)
+        screens.append(window.screen())
+    for key in (1, 3, 5):
+        assert screens[key] != screens[key - 1], "nothing seen of key %d" % key
+        assert screens[key + 1] == screens[0], "key %d does not go away" % key
+    window.key("z")
+    window.wait(r"100,100: [0-9.e-]+ [0-9.e-]+ [0-9.e-]+ -> \d+ \d+ \d+")
+    window.end()
+
+
+def test_the_magnifying_glass_tells_the_truth(display):
+    window = Window(display, "demo05", "320", "240", "--samples", "4")
+    window.wait("4 samples")
+    window.key("z")
+    window.move(200, 150)
+    match = window.wait(r"200,150: ([0-9.e-]+) \S+ \S+ -> (\d+) \d+ \d+")
+    linear, byte = float(match.group(1)), int(match.group(2))
+    assert byte == int(255 * min(linear, 1) ** (1 / 2.2) + 0.5), match.group(0)
+    _, _, rows = window.screen()
+    assert rows[150][600] == byte, (rows[150][600], byte)
+    window.end()
+
+
+def test_a_click_says_what_explain_says(display):
+    for demo, x, y in (("demo07", 80, 60), ("demo08", 30, 90), ("demo09", 120, 20)):
+        window = Window(display, demo, *SMALL)
+        window.wait("4 samples")
+        window.click(x, y)
+        until(lambda: "  = (" in window.said())
+        words = window.said()[window.said().index("sample 0\n"):]
+        words = words[:words.index("\n", words.index("  = (")) + 1]
+        explained = subprocess.run(
+            [DEMOS + "/" + demo, *SMALL, "--explain", "%d,%d" % (x, y), "--quiet"], env=ENV,
+            stdout=subprocess.PIPE, check=True).stdout.decode()
+        assert explained.startswith(words), (words, explained)
+        window.end()
+
+
+def test_the_inspector_follows_mouse_and_keys(display):
+    window = Window(display, "demo07", "320", "240", "--samples", "1")
+    window.wait("1 sample")
+    before = window.screen()
+    window.click(100, 150)
+    seen = [window.screen()]
+    assert seen[0][0] == 2 * before[0], "no room for the plan"
+    for what in ("Right", "v", "move", "Left"):
+        if what == "move":
+            window.move(200, 100)
+        else:
+            window.key(what)
+        seen.append(window.screen())
+        assert seen[-1][2] != seen[-2][2], "nothing seen of " + what
+    assert b"\xfa\xfa\xfa" in seen[0][2][10], "no plan"
+    window.key("i")
+    until(lambda: window.screen()[0] == before[0])
+    window.end()
+
+
+def test_hold_to_compare(display):
+    window = Window(display, "demo06", *SMALL)
+    window.wait("4 samples")
+    window.move(10, 10)
+    for name in ("the chapter before", "one sample", "rt.h's own function"):
+        first = window.screen()
+        window.xdotool("keydown", "b")
+        window.wait("held: " + name)
+        held = window.screen()
+        assert (held != first) == (name != "rt.h's own function"), name
+        window.xdotool("keyup", "b")
+        until(lambda: "held" not in window.title())
+        assert window.screen() == first, "not as before " + name
+        window.key("o")
+    window.end()
+
+
+def test_reset_brings_everything_back(display):
+    window = Window(display, "demo06", *SMALL)
+    window.wait("4 samples")
+    first, _ = window.save()
+    window.drag(50, 75, 20, -10)
+    window.drag(100, 20, 30, 10)
+    window.key("Left", "Prior", "3", "plus", "bracketright", "l", "g")
+    window.key("r")
+    window.wait(r"6 mirror .*, 4 samples, error.*5 bounces, random")
+    assert window.save()[0] == first
+    window.end()
+
+
+def test_the_printed_camera_brings_the_view_back(display):
+    window = Window(display, "demo05", *SMALL)
+    window.wait("4 samples")
+    window.key("Left", "Left", "Up", "Prior")
+    window.drag(40, 30, 0, 12, button="3")
+    window.wait("4 samples, error")
+    picture, said = window.save()
+    window.end()
+    camera = re.findall(r"rt_camera (room_camera = .*;)", said)[-1]
+    folder = os.path.join(WORK, "view")
+    shutil.copytree("demos", folder + "/demos")
+    shutil.copy("rt.h", folder)
+    with open("demos/scene.h") as file:
+        scene = re.sub(r"room_camera = .*;", camera, file.read())
+    with open(folder + "/demos/scene.h", "w") as file:
+        file.write(scene)
+    out = os.path.join(WORK, "v.png")
+    shutil.copytree(".ci", folder + "/.ci", dirs_exist_ok=True)
+    shutil.copytree("tests", folder + "/tests", dirs_exist_ok=True)
+    shutil.copy("Makefile", folder)
+    subprocess.run(["make", "-s", "build/demo05"], cwd=folder, check=True,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run([folder + "/build/demo05", *SMALL, "--no-window", "--quiet", "--out", out],
+                   check=True)
+    with open(out, "rb") as file:
+        assert file.read() == picture
+
+
+def three_times(test):
+    """Time is measured: what disturbs the machine for a moment, does not three times."""
+    def again(display):
+        for attempt in range(3):
+            try:
+                return test(display)
+            except AssertionError:
+                if attempt == 2:
+                    raise
+                Window.latest.process.kill()
+        return None
+    return again
+
+
+@three_times
+def test_thirty_pictures_a_second(display):
+    window = Window(display, "demo08", "--samples", "4")
+    window.wait("4 samples")
+    window.drag(200, 300, 200, -100, steps=100)
+    _, said = window.end()
+    match = re.search(r"(\d+) pictures in motion, (\d+) a second; the longest wait for the "
+                      r"keyboard: (\d+) ms", said)
+    assert match, said
+    print("  640 x 480, direct light: %s pictures a second, longest wait %s ms"
+          % (match.group(2), match.group(3)))
+    assert int(match.group(1)) >= 20 and int(match.group(2)) >= 30, match.group(0)
+
+
+@three_times
+def test_it_answers_and_ends_while_it_renders(display):
+    window = Window(display, "demo07", "--samples", "100000")
+    time.sleep(1)
+    window.key("Left")
+    window.wait("indirect light.*error", 5)
+    time.sleep(1)
+    took, said = window.end()
+    wait = int(re.search(r"keyboard: (\d+) ms", said).group(1))
+    print("  ended %.0f ms after q, with the time for sending the key; longest wait %d ms"
+          % (1e3 * took, wait))
+    assert took < 0.1 and wait <= 50, (took, wait)
+
+
+def test_things_stay_in_the_room_and_the_camera_out_of_walls(display):
+    window = Window(display, "demo06", *SMALL)
+    window.wait("4 samples")
+    window.drag(50, 75, 1400, 0, steps=10)  # the ball, through the wall
+    _, said = window.save()
+    x = float(re.findall(r"ball \{(\S+?)f?,", said)[-1])
+    assert 30 < x <= 33.001, x
+    for _ in range(60):
+        window.xdotool("click", "4")  # the wheel: into whatever is there
+    for _ in range(30):
+        window.key("Left")
+    window.wait("4 samples, error")
+    _, said = window.save()
+    position = re.findall(r"room_camera = \{\{(\S+), (\S+), (\S+)\}", said)[-1]
+    x, y, z = [float(number.rstrip("f")) for number in position]
+    assert abs(x) < 52 and -22 < y < 42 and z > -61, position
+    window.end()
+
+
+def test_odd_windows(display):
+    """Clicks beside the picture, a window of 1 x 1 and a wide one, a picture of 1 x 1."""
+    window = Window(display, "demo05", *SMALL)
+    window.wait("4 samples")
+    window.xdotool("windowsize", "--sync", window.id, "900", "200")
+    window.click(5, 5)  # beside the picture
+    time.sleep(0.3)
+    assert "pixel" not in window.said(), window.said()
+    window.click(450, 100)
+    until(lambda: "pixel 80,60" in window.said() or "pixel 79,59" in window.said()
+          or "pixel 80,59" in window.said())
+    window.xdotool("windowsize", window.id, "1", "1")
+    window.key("h", "z", "Left", "i", "1", "h")
+    window.xdotool("windowsize", window.id, "400", "300")
+    window.wait("1 sphere, 4 samples")
+    window.end()
+    window = Window(display, "demo07", "1", "1", "--samples", "1")
+    window.click(80, 80)
+    until(lambda: "pixel 0,0" in window.said())
+    window.key("Left", "h", "z", "v")
+    window.end()
+
+
+def test_a_lost_display_loses_no_picture(_):
+    display = Display("800x600")
+    window = Window(display, "demo07", "--samples", "100000", "320", "240")
+    time.sleep(1)
+    display.close()
+    assert window.process.wait(10) != 0
+    assert "the display is gone" in window.said() and os.path.getsize(window.out) > 1000
+
+
+def test_without_sdl_gfx(display):
+    """The window works without text."""
+    subprocess.run(["make", "-s", "BUILD=build/no-gfx", "GFX=", "CFLAGS=-O2 -Werror",
+                    "build/no-gfx/demo01"], check=True, stdout=subprocess.DEVNULL)
+    global DEMOS
+    full, DEMOS = DEMOS, os.path.abspath("build/no-gfx")
+    try:
+        window = Window(display, "demo01", *SMALL)
+        window.wait("1 sphere")
+        window.click(40, 70)
+        window.key("h")
+        until(lambda: "sample 0" in window.said() and "hold" in window.said())
+        window.end()
+    finally:
+        DEMOS = full
+
+
+def test_no_leak_of_ours(display):
+    """AddressSanitizer; what the libraries of X and D-Bus keep is not ours."""
+    subprocess.run(["make", "-s", "BUILD=build/asan", "build/asan/demo07",
+                    "CFLAGS=-O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer"],
+                   check=True, stdout=subprocess.DEVNULL)
+    global DEMOS
+    full, DEMOS = DEMOS, os.path.abspath("build/asan")
+    try:
+        window = Window(display, "demo07", *SMALL,
+                        env={"ASAN_OPTIONS": "detect_leaks=1:exitcode=0"})
+        window.wait("4 samples")
+        window.click(80, 60)
+        window.key("Left", "Right", "h", "z", "v", "i", "5", "o", "s", "r")
+        window.drag(50, 75, 20, 0)
+        window.wait("4 samples, error")
+        _, said = window.end()
+        report = said[said.find("=====") if "=====" in said else len(said):]
+        assert not re.search(r"demos/|rt\.h|heap-|stack-", report), report
+        assert "runtime error" not in said, said
+    finally:
+        DEMOS = full
+
+
+def write_png(path, screen):
+    width, height, rows = screen
+
+    def chunk(kind, data):
+        return (struct.pack(">I", len(data)) + kind + data +
+                struct.pack(">I", zlib.crc32(kind + data)))
+    data = zlib.compress(b"".join(b"\0" + row for row in rows), 9)
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" +
+                   chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                   chunk(b"IDAT", data) + chunk(b"IEND", b""))
+
+
+def pictures(display, folder):
+    """For docs/window.md; each the same in each run."""
+    window = Window(display, "demo08", "--samples", "64")
+    window.wait("64 samples")
+    window.move(600, 20)
+    window.key("h")
+    write_png(folder + "/window-help.png", window.screen())
+    window.key("h")
+    window.click(170, 300)
+    write_png(folder + "/window-above.png", window.screen())
+    window.key("v")
+    window.move(330, 250)
+    write_png(folder + "/window-side.png", window.screen())
+    window.key("i", "z")
+    window.move(300, 390)
+    write_png(folder + "/window-glass.png", window.screen())
+    window.end()
+    window = Window(display, "demo07", "--samples", "16", "--sampler", "sobol")
+    window.wait("16 samples")
+    window.drag(200, 300, 120, -80)
+    for _ in range(6):
+        window.key("Left")
+    window.key("Prior", "Prior")
+    window.wait(", 16 samples, error", 60)
+    write_png(folder + "/window-moved.png", window.screen())
+    window.end()
+
+
+def main():
+    names = sys.argv[1:]
+    tests = [name for name in globals() if name.startswith("test_")]
+    display = Display()
+    failed = 0
+    try:
+        if names[:1] == ["--pictures"]:
+            pictures(display, names[1])
+            return 0
+        chosen = [name for name in tests if name in names or not names]
+        for name in chosen:
+            try:
+                globals()[name](display)
+            except (AssertionError, subprocess.SubprocessError) as error:
+                failed += 1
+                print("%s: %s" % (name, str(error) or "wrong"))
+                if Window.latest:
+                    Window.latest.process.kill()
+        print("window: %d passed, %d failed" % (len(chosen) - failed, failed))
+        return failed != 0
+    finally:
+        display.close()
+        shutil.rmtree(WORK, ignore_errors=True)
+
+
+sys.exit(main())
