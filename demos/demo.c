@@ -669,7 +669,7 @@ static int render_and_save(run *r)
     r->started = demo_seconds();
     bool good;
     if (r->win) {
-        good = live(r);
+        good = run_window(r);
     } else {
         const rt_options options = options_of(r);
         const rt_status status =
@@ -737,6 +737,9 @@ int demo_main(int argc, char **argv, const demo *d)
         signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error like others, not the end */
         if (r.s.window)
             open_window(&r);
+        /* The title says the error. With random numbers the picture is the same. */
+        if (r.win && r.s.sampler == RT_RANDOM && !r.image.half)
+            r.image.half = calloc(count, sizeof *r.image.half);
         result = render_and_save(&r);
         if (r.win)
             close_window(&r);

@@ -9,9 +9,14 @@
 #include "explain.h"
 #include "scene.h"
 
-static const rt_scene *const live_scenes[8] = {
-    NULL,        &scene_sphere, &scene_walls,  &scene_cube,
-    &scene_cube, &scene_cube,   &scene_mirror, &scene_indirect};
+static const rt_scene *live_scene(int stage)
+{
+    return stage == 1   ? &scene_sphere
+           : stage == 2 ? &scene_walls
+           : stage <= 5 ? &scene_cube
+           : stage == 6 ? &scene_mirror
+                        : &scene_indirect;
+}
 
 /* -------------------------------------------------------------------------------------
  * The stages
@@ -26,7 +31,7 @@ typedef struct live_context {
 static rt_vec3 live_pixel(const void *context, float x, float y, rt_rng *rng)
 {
     const live_context *c = context;
-    const rt_scene *scene = live_scenes[c->stage];
+    const rt_scene *scene = live_scene(c->stage);
     rt_ray ray = rt_camera_ray(&room_camera, c->view->width, c->view->height, x, y);
     for (int bounce = 0; bounce <= c->view->bounces; bounce++) {
         rt_hit hit;
@@ -66,7 +71,7 @@ static rt_status live_draft(int stage, const demo_view *view, const rt_options *
         return live_render(stage, view, options, image);
     rt_options direct = *options;
     direct.bounces = 0;
-    const rt_status status = rt_render(live_scenes[stage], &room_camera, &direct, image);
+    const rt_status status = rt_render(live_scene(stage), &room_camera, &direct, image);
     demo_view mirrors = *view;
     mirrors.bounces = view->bounces > 0 ? view->bounces : 5;
     const live_context context = {stage == 7 ? 6 : stage, &mirrors};
@@ -222,7 +227,7 @@ static int live_pick(int stage, const demo_view *view, float x, float y)
     const float t = rt_dot(to_lamp, ray.direction); /* where the ray comes by the lamp */
     const float beside = rt_length(rt_sub(to_lamp, rt_scale(ray.direction, t)));
     rt_hit hit;
-    const bool found = rt_intersect(live_scenes[stage], &ray, &hit);
+    const bool found = rt_intersect(live_scene(stage), &ray, &hit);
     if (stage > 1 && t > 0.0f && (!found || hit.t > t) && beside < 2.0f)
         return LAMP;
     if (!found)
@@ -253,7 +258,7 @@ static void live_drag(int thing, const demo_view *view, float right_pixels,
                                    rt_scale(up, size * up_pixels)));
     const float reach = live_reach(thing);
     middle.x = live_clamp(middle.x, -49 + reach, 49 - reach);
-    middle.y = live_clamp(middle.y, -19 + reach, 39 - reach);
+    middle.y = live_clamp(middle.y, -20.8f + reach, 39 - reach);
     middle.z = live_clamp(middle.z, -59 + reach, 90 - reach);
     live_place(thing, middle);
 }
@@ -425,7 +430,7 @@ static int live_path(int stage, const demo_view *view, const rt_options *options
     rt_path path = empty_path();
     rt_options traced = *options;
     traced.bounces = stage < 6 ? 0 : view->bounces < 90 ? view->bounces : 90;
-    if (rt_trace_pixel(live_scenes[stage], &room_camera, &traced, image, x, y, sample,
+    if (rt_trace_pixel(live_scene(stage), &room_camera, &traced, image, x, y, sample,
                        &path) != RT_OK)
         return 0;
     if (stage < 4)

@@ -331,7 +331,7 @@ static void set_title(run *r, const rt_image *shown, const char *pixel)
     static const char *const names[] = {"",        "sphere", "walls",  "cube",
                                         "shadows", "gamma",  "mirror", "indirect light"};
     const window *w = r->win;
-    char title[400] = "", result[100];
+    char title[400] = "";
     FILE *t = fmemopen(title, sizeof title, "w");
     if (!t)
         return;
@@ -344,6 +344,7 @@ static void set_title(run *r, const rt_image *shown, const char *pixel)
     if (shown == &w->draft) {
         fprintf(t, "direct light, %.0f a second", w->drafts / fmax(w->drafts_took, 1e-9));
     } else {
+        char result[100];
         const double since = w->refining > 0.0 ? demo_seconds() - w->refining : 0.0;
         describe(shown, result, sizeof result);
         fprintf(t, "%s", result);
@@ -555,6 +556,8 @@ static void handle_motion(run *r, float x, float y)
 {
     window *w = r->win;
     const demo_live *live = r->d->live;
+    if (w->area.w == 0) /* nothing is drawn yet */
+        return;
     const float old_x = w->mouse_x, old_y = w->mouse_y;
     w->mouse_x = (x - (float)w->area.x) * (float)r->image.width / (float)w->area.w;
     w->mouse_y = (y - (float)w->area.y) * (float)r->image.height / (float)w->area.h;
@@ -828,7 +831,7 @@ static rt_status refine(run *r)
 }
 
 /* Until it is closed. True, if all went well. */
-static bool live(run *r)
+static bool run_window(run *r)
 {
     window *w = r->win;
     bool good = true;

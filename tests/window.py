@@ -6,13 +6,17 @@
 
 Needs Xvfb, xdotool and xwd, and the demos in build/ (or in $DEMOS).
 """
+import fcntl
 import os
+import pty
 import re
+import select
 import shutil
 import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import zlib
 
@@ -197,6 +201,53 @@ def test_keys_change_what_they_say(display):
         window.key(key)
         window.wait(pattern)
     window.end()
+
+
+def view(said):
+    """What was printed last: camera position and direction, ball, mirror, cube, lamp."""
+    lines = re.findall(r"rt_camera room_camera.*\n.*", said)[-1]
+    vectors = re.findall(r"\{([-0-9.]+)f, ([-0-9.]+)f, ([-0-9.]+)f\}", lines)
+    names = ["position", "direction", "up", "ball", "mirror", "cube", "end", "lamp"]
+    return {name: [float(x) for x in vector] for name, vector in zip(names, vectors)}
+
+
+def test_camera_and_things_go_where_they_should(display):
+    window = Window(display, "demo06", *SMALL)
+    window.wait("4 samples")
+    first = view(window.save()[1])
+    x, y, z = first["position"]
+
+    def moved(*keys, drag=None, shift=False):
+        if shift:
+            window.xdotool("keydown", "shift")
+        if drag:
+            window.drag(*drag[:4], steps=4, button=drag[4] if len(drag) > 4 else "1")
+        if shift:
+            window.xdotool("keyup", "shift")
+        window.key(*keys)
+        now = view(window.save()[1])
+        window.key("r")
+        return now
+    assert moved("Left")["position"][0] < x < moved("Right")["position"][0]
+    assert moved("Down")["position"][1] < y < moved("Up")["position"][1]
+    assert moved("Prior")["position"][2] < z < moved("Next")["position"][2]
+    assert moved(drag=(80, 35, 12, 0))["position"][0] < x  # the back wall: go round
+    sideways = moved(drag=(80, 35, 12, 0, "3"))
+    assert sideways["position"][0] < x and sideways["direction"] == first["direction"]
+    window.move(80, 35)
+    window.xdotool("click", "4")
+    assert moved()["position"][2] < z, "the wheel"
+    for name, at in (("ball", (50, 75)), ("mirror", (85, 60)), ("cube", (115, 85)),
+                     ("lamp", (77, 23))):
+        now = moved(drag=(*at, 8, -4))
+        for other in ("ball", "mirror", "cube", "lamp", "position"):
+            assert (now[other] != first[other]) == (other == name), (name, other)
+        assert now[name][0] > first[name][0] and now[name][1] > first[name][1], name
+        now = moved(drag=(*at, 0, -8), shift=True)
+        assert now[name][1] == first[name][1] and now[name][2] < first[name][2], name
+    assert view(window.save()[1]) == first
+    window.key("Escape")
+    assert window.process.wait(5) == 0
 
 
 def test_keys_that_change_the_screen(display):
@@ -412,6 +463,59 @@ def test_a_lost_display_loses_no_picture(_):
     display.close()
     assert window.process.wait(10) != 0
     assert "the display is gone" in window.said() and os.path.getsize(window.out) > 1000
+
+
+def test_hidden_and_shown_again(display):
+    window = Window(display, "demo07", "160", "120", "--samples", "100000")
+    time.sleep(0.5)
+    window.xdotool("windowunmap", "--sync", window.id)
+    time.sleep(0.5)
+    window.xdotool("windowmap", "--sync", window.id)
+    window.xdotool("windowfocus", "--sync", window.id)
+    assert any(any(row) for row in window.screen()[2]), "nothing to be seen"
+    window.end()
+
+
+def in_a_terminal(arguments, env, interrupt_after=None):
+    """What a demo writes to a terminal of 60 x 24, and its exit status."""
+    pid, terminal = pty.fork()
+    if pid == 0:
+        environment = {k: v for k, v in ENV.items() if k not in ("DISPLAY", "COLORTERM")}
+        os.execve(DEMOS + "/demo07", ["demo07", *arguments], dict(environment, **env))
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("4H", 24, 60, 0, 0))
+    written, started = b"", time.monotonic()
+    while True:
+        if interrupt_after and time.monotonic() - started > interrupt_after:
+            os.write(terminal, b"\x03")  # Ctrl-C
+            interrupt_after = None
+        try:
+            if select.select([terminal], [], [], 0.05)[0]:
+                written += os.read(terminal, 65536)
+        except OSError:  # closed
+            break
+    return written.decode(), os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+
+
+def test_the_preview_in_a_terminal(_):
+    out = os.path.join(WORK, "t.png")
+    small = ["160", "120", "--samples", "200", "--preview", "--out", out]
+    said, code = in_a_terminal(small, {"TERM": "xterm-256color", "COLORTERM": "truecolor"})
+    pictures = said.count("\33[0m\r\n")
+    assert code == 0 and "48;2;" in said and pictures >= 2 * 21, (code, pictures)
+    last = said[said.rindex("\33[21A"):]
+    rows = last.split("\33[0m\r\n")
+    assert len(rows) == 22 and all(row.count("\u2580") == 56 for row in rows[:-1]), last
+    assert "\33[38" not in rows[-1] and "wrote" in rows[-1], rows[-1]
+    said, code = in_a_terminal(small, {"TERM": "screen-256color"})
+    assert code == 0 and "48;5;" in said and "48;2;" not in said
+    for term in ("vt100", "dumb"):
+        said, code = in_a_terminal(small, {"TERM": term})
+        assert code == 0 and "\u2580" not in said and "no terminal with colours" in said
+    endless = ["--samples", "100000", "--preview", "--out", out]
+    said, code = in_a_terminal(endless, {"TERM": "xterm-256color"}, interrupt_after=1.5)
+    assert code == 130 and "interrupted" in said, (code, said[-300:])
+    assert said.rindex("\33[0m") > said.rindex("\u2580"), "colours are left"
+    assert "\33[?25l" not in said and "\33[?1049h" not in said
 
 
 def test_without_sdl_gfx(display):
