@@ -577,6 +577,8 @@ static bool progress(void *user, float part)
  * The whole program
  * ------------------------------------------------------------------------------------- */
 
+demo_renderer *const demo_rt_render = rt_render;
+
 double demo_seconds(void)
 {
     return (double)SDL_GetPerformanceCounter() / (double)SDL_GetPerformanceFrequency();

@@ -270,18 +270,28 @@ static void live_drag(int thing, const demo_view *view, float right_pixels,
 static void live_reset(void)
 {
     static bool started;
-    static rt_camera camera;
-    static rt_vec3 middles[LAMP + 1];
+    static struct {
+        rt_camera camera;
+        rt_vec3 ball, mirror;
+        rt_box cube;
+        rt_light light, dim_light;
+    } first;
     if (!started) { /* the first call, from main, keeps what there is */
-        camera = room_camera;
-        for (int thing = BALL; thing <= LAMP; thing++)
-            middles[thing] = live_middle(thing);
+        first.camera = room_camera;
+        first.ball = room_spheres[0].center;
+        first.mirror = room_spheres[6].center;
+        first.cube = room_cube;
+        first.light = room_light;
+        first.dim_light = room_dim_light;
     }
     started = true;
-    room_camera = camera;
+    room_camera = first.camera;
     live_pivot = rt_vec(0, 7, 0);
-    for (int thing = BALL; thing <= LAMP; thing++)
-        live_place(thing, middles[thing]);
+    room_spheres[0].center = first.ball;
+    room_spheres[6].center = first.mirror;
+    room_cube = first.cube;
+    room_light = first.light;
+    room_dim_light = first.dim_light;
 }
 
 static void live_print_vec(const char *before, rt_vec3 v, const char *after)

@@ -57,7 +57,7 @@ typedef struct window {
     bool inspect, side;
     int x, y, sample;       /* of the inspector */
     int button, thing;      /* what is held by the mouse, 0: nothing */
-    bool dragged;           /* since the button went down */
+    bool dragged;           /* since the button went down: it will be no click */
     float down_x, down_y;   /* where that was, on the screen */
     float mouse_x, mouse_y; /* in the picture, in its pixels */
     int drafts;             /* so far, and for so many seconds */
@@ -69,10 +69,11 @@ typedef struct window {
  * What is to be shown
  * ------------------------------------------------------------------------------------- */
 
+/* The stage in which the demo's own function stands: 5 for demo05, 7 from demo07 on. */
 static int own_stage(const run *r)
 {
-    const int chapter = atoi(r->d->name + 4); /* demo05 */
-    return chapter < 7 ? chapter : 7;
+    const char *chapter = strpbrk(r->d->name, "123456");
+    return chapter ? *chapter - '0' : 7;
 }
 
 static bool is_own(const run *r, int stage)
@@ -552,24 +553,30 @@ static void handle_key(run *r, SDL_Keycode key, bool repeated)
         change(r);
 }
 
+static bool on_picture(const run *r)
+{
+    const window *w = r->win;
+    return w->mouse_x >= 0.0f && w->mouse_y >= 0.0f &&
+           w->mouse_x < (float)r->image.width && w->mouse_y < (float)r->image.height;
+}
+
 static void handle_motion(run *r, float x, float y)
 {
     window *w = r->win;
     const demo_live *live = r->d->live;
     if (w->area.w == 0) /* nothing is drawn yet */
         return;
+    if (w->button != 0 && fabsf(x - w->down_x) + fabsf(y - w->down_y) > 4.0f)
+        w->dragged = true;
+    if (w->button != 0 && !w->dragged) /* it may still become a click */
+        return;
     const float old_x = w->mouse_x, old_y = w->mouse_y;
     w->mouse_x = (x - (float)w->area.x) * (float)r->image.width / (float)w->area.w;
     w->mouse_y = (y - (float)w->area.y) * (float)r->image.height / (float)w->area.h;
     const float right = w->mouse_x - old_x, up = old_y - w->mouse_y;
-    const bool inside = w->mouse_x >= 0.0f && w->mouse_y >= 0.0f &&
-                        w->mouse_x < (float)r->image.width &&
-                        w->mouse_y < (float)r->image.height;
     if (w->glass)
         r->draw_due = 0.0;
-    if (fabsf(x - w->down_x) + fabsf(y - w->down_y) > 4.0f)
-        w->dragged = true;
-    if (w->button != 0 && w->dragged && live) {
+    if (w->button != 0 && live) {
         const float turn = 0.5f / (float)r->image.width;
         if (w->button != SDL_BUTTON_LEFT)
             live->pan(&r->view, -right, -up);
@@ -579,7 +586,7 @@ static void handle_motion(run *r, float x, float y)
         else
             live->orbit(-turn * right, -turn * up);
         change(r);
-    } else if (w->inspect && w->button == 0 && inside) {
+    } else if (w->inspect && w->button == 0 && on_picture(r)) {
         inspect(r, (int)w->mouse_x, (int)w->mouse_y);
         r->draw_due = 0.0;
     }
@@ -608,6 +615,8 @@ static void handle(run *r, const SDL_Event *e)
     case SDL_MOUSEBUTTONDOWN:
         handle_motion(r, w->density * (float)e->button.x,
                       w->density * (float)e->button.y);
+        if (!on_picture(r))
+            break;
         w->button = e->button.button;
         w->dragged = false;
         w->down_x = w->density * (float)e->button.x;
@@ -615,9 +624,7 @@ static void handle(run *r, const SDL_Event *e)
         w->thing = live ? live->pick(w->stage, &r->view, w->mouse_x, w->mouse_y) : 0;
         break;
     case SDL_MOUSEBUTTONUP:
-        if (live && w->button == SDL_BUTTON_LEFT && !w->dragged && w->mouse_x >= 0.0f &&
-            w->mouse_y >= 0.0f && w->mouse_x < (float)r->image.width &&
-            w->mouse_y < (float)r->image.height) {
+        if (live && w->button == SDL_BUTTON_LEFT && !w->dragged) {
             inspect(r, (int)w->mouse_x, (int)w->mouse_y);
             say_what_is_under(r);
             r->draw_due = 0.0;
@@ -792,6 +799,7 @@ static void draw_draft(run *r)
         rt_render_pixels(call_pixel, &small, &options, image);
     else
         r->d->live->draft(stage, &small.view, &options, image);
+    poll_events(r);
     draw(r);
     const double took = demo_seconds() - start;
     if (took > 0.040 && w->shrink < 4)
