@@ -45,6 +45,7 @@ typedef struct window {
     bool finished;  /* it is there, and written */
     bool disturbed; /* it is no longer the picture that the command line wanted */
     bool changed;   /* what is seen has changed, so the pictures are void */
+    bool save;      /* s was pressed */
     bool stop;      /* let the rendering stop: something else is to be done */
     int stage;      /* 1 to 7 */
     bool plain;     /* bytes without gamma */
@@ -457,99 +458,131 @@ static void inspect_no_more(run *r)
     r->win->inspect = false;
 }
 
-static void handle_key(run *r, SDL_Keycode key, bool repeated)
+static void save_view(run *r)
+{
+    r->win->save = false;
+    r->win->polled = 0.0; /* it writes the file */
+    if (!save(r) || r->s.quiet)
+        return;
+    end_progress(r);
+    printf("%s: saved %s\n", r->d->name, r->s.out);
+    if (r->d->live)
+        r->d->live->print();
+    fflush(stdout);
+}
+
+static void show_help(run *r)
+{
+    r->win->help = !r->win->help;
+#ifndef HAVE_GFX
+    for (size_t i = 0; i < sizeof window_help / sizeof window_help[0] && r->win->help;
+         i++)
+        printf("%s\n", window_help[i]);
+    fflush(stdout);
+#endif
+}
+
+/* The speed is counted anew. */
+static void count_anew(run *r)
+{
+    r->win->stop = true;
+    r->win->rendered = 0.0;
+    r->image.rays = r->win->other.rays = 0;
+}
+
+static void set_samples(run *r, int samples)
+{
+    r->win->samples = samples < 1 ? 1 : samples < 1 << 20 ? samples : 1 << 20;
+    r->win->stop = r->win->disturbed = true; /* what there is already, stays */
+}
+
+/* Keys that move the camera or change what is seen. False: it is none of them. */
+static bool change_by_key(run *r, SDL_Keycode key)
 {
     window *w = r->win;
     const demo_live *live = r->d->live;
-    const float step = 1.0f / 64.0f;
-    r->draw_due = 0.0;
-    if (key == SDLK_ESCAPE || key == SDLK_q)
-        r->closed = true;
-    if (key == SDLK_s)
-        w->polled = 0.0; /* it writes the file */
-    if (key == SDLK_s && !repeated && save(r) && !r->s.quiet) {
-        end_progress(r);
-        printf("%s: saved %s\n", r->d->name, r->s.out);
-        if (live)
-            live->print();
-        fflush(stdout);
-    }
-    if (key == SDLK_z)
-        w->glass = !w->glass;
-    if (key == SDLK_h) {
-        w->help = !w->help;
-#ifndef HAVE_GFX
-        for (size_t i = 0; i < sizeof window_help / sizeof window_help[0] && w->help; i++)
-            printf("%s\n", window_help[i]);
-        fflush(stdout);
-#endif
-    }
-    if (key == SDLK_PLUS || key == SDLK_EQUALS || key == SDLK_KP_PLUS)
-        w->samples = w->samples < 1 << 20 ? 2 * w->samples : w->samples;
-    if (key == SDLK_MINUS || key == SDLK_KP_MINUS)
-        w->samples = w->samples > 1 ? w->samples / 2 : 1;
-    if (key == SDLK_PLUS || key == SDLK_EQUALS || key == SDLK_KP_PLUS ||
-        key == SDLK_MINUS || key == SDLK_KP_MINUS)
-        w->stop = w->disturbed = true; /* what there is already, stays */
-    if (key == SDLK_g)
-        w->plain = !w->plain;
-    if (key == SDLK_t)
-        r->s.threads = rt_thread_count((int)r->s.threads) >= rt_thread_count(0)
-                           ? 1
-                           : rt_thread_count((int)r->s.threads) + 1;
-    if (key == SDLK_p)
-        r->s.lanes = r->s.lanes == 1 ? 0 : 1;
-    if (key == SDLK_t || key == SDLK_p) {
-        w->stop = true;
-        w->rendered = 0.0;
-        r->image.rays = w->other.rays = 0; /* the speed is counted anew, */
-    }
-    if (!live)
-        return;
-    if (key == SDLK_l)
-        r->s.sampler = r->s.sampler == RT_RANDOM ? RT_SOBOL : RT_RANDOM;
-    if (key == SDLK_RIGHTBRACKET && r->s.bounces < 90)
-        r->s.bounces++;
-    if (key == SDLK_LEFTBRACKET && r->s.bounces > 0)
-        r->s.bounces--;
-    if (key >= SDLK_1 && key <= SDLK_7)
-        w->stage = (int)(key - SDLK_0);
-    if (key == SDLK_r) {
+    const float step = 1.0f / 64.0f; /* of a turn */
+    switch (key) {
+    case SDLK_1:
+    case SDLK_2:
+    case SDLK_3:
+    case SDLK_4:
+    case SDLK_5:
+    case SDLK_6:
+    case SDLK_7: w->stage = (int)(key - SDLK_0); break;
+    case SDLK_LEFT: live->orbit(-step, 0); break;
+    case SDLK_RIGHT: live->orbit(step, 0); break;
+    case SDLK_UP: live->orbit(0, step); break;
+    case SDLK_DOWN: live->orbit(0, -step); break;
+    case SDLK_PAGEUP: live->zoom(0.9f); break;
+    case SDLK_PAGEDOWN: live->zoom(1.0f / 0.9f); break;
+    case SDLK_l: r->s.sampler = r->s.sampler == RT_RANDOM ? RT_SOBOL : RT_RANDOM; break;
+    case SDLK_RIGHTBRACKET: r->s.bounces += r->s.bounces < 90; break;
+    case SDLK_LEFTBRACKET: r->s.bounces -= r->s.bounces > 0; break;
+    case SDLK_r:
         live->reset();
         r->s = w->first;
         w->stage = own_stage(r);
         w->samples = wanted_samples(r);
         w->plain = w->glass = w->help = w->side = false;
         w->comparison = BEFORE;
+        break;
+    default: return false;
     }
     r->view.bounces = (int)r->s.bounces;
-    if (key == SDLK_b && !w->hold) {
-        w->hold = w->stop = true;
-        w->rendered = 0.0;
+    return true;
+}
+
+static void handle_key(run *r, SDL_Keycode key, bool repeated)
+{
+    window *w = r->win;
+    const int threads = rt_thread_count((int)r->s.threads);
+    r->draw_due = 0.0;
+    switch (key) {
+    case SDLK_ESCAPE:
+    case SDLK_q: r->closed = true; return;
+    case SDLK_s: w->save = w->save || !repeated; return;
+    case SDLK_z: w->glass = !w->glass; return;
+    case SDLK_g: w->plain = !w->plain; return;
+    case SDLK_h: show_help(r); return;
+    case SDLK_PLUS:
+    case SDLK_EQUALS:
+    case SDLK_KP_PLUS: set_samples(r, 2 * w->samples); return;
+    case SDLK_MINUS:
+    case SDLK_KP_MINUS: set_samples(r, w->samples / 2); return;
+    case SDLK_t:
+        r->s.threads = threads < rt_thread_count(0) ? threads + 1 : 1;
+        count_anew(r);
+        return;
+    case SDLK_p:
+        r->s.lanes = r->s.lanes == 1 ? 0 : 1;
+        count_anew(r);
+        return;
+    default: break;
     }
-    if (key == SDLK_o) {
+    if (!r->d->live)
+        return;
+    switch (key) {
+    case SDLK_v: w->side = !w->side; return;
+    case SDLK_i:
+        if (w->inspect)
+            inspect_no_more(r);
+        return;
+    case SDLK_b:
+        if (!w->hold)
+            count_anew(r);
+        w->hold = true;
+        return;
+    case SDLK_o:
         w->comparison = (w->comparison + 1) % COMPARISONS;
         forget(&w->other);
         w->stop = true;
-    }
-    if (key == SDLK_v)
-        w->side = !w->side;
-    if (key == SDLK_i && w->inspect)
-        inspect_no_more(r);
-    if (w->inspect && (key == SDLK_LEFT || key == SDLK_RIGHT)) {
-        w->sample += key == SDLK_RIGHT ? 1 : w->sample > 0 ? -1 : 0;
         return;
+    default: break;
     }
-    if (key == SDLK_LEFT || key == SDLK_RIGHT)
-        live->orbit(key == SDLK_RIGHT ? step : -step, 0);
-    if (key == SDLK_UP || key == SDLK_DOWN)
-        live->orbit(0, key == SDLK_UP ? step : -step);
-    if (key == SDLK_PAGEUP || key == SDLK_PAGEDOWN)
-        live->zoom(key == SDLK_PAGEUP ? 0.9f : 1.0f / 0.9f);
-    if (key == SDLK_l || key == SDLK_RIGHTBRACKET || key == SDLK_LEFTBRACKET ||
-        (key >= SDLK_1 && key <= SDLK_7) || key == SDLK_r || key == SDLK_LEFT ||
-        key == SDLK_RIGHT || key == SDLK_UP || key == SDLK_DOWN || key == SDLK_PAGEUP ||
-        key == SDLK_PAGEDOWN)
+    if (w->inspect && (key == SDLK_LEFT || key == SDLK_RIGHT))
+        w->sample += key == SDLK_RIGHT ? 1 : w->sample > 0 ? -1 : 0;
+    else if (change_by_key(r, key))
         change(r);
 }
 
@@ -607,8 +640,7 @@ static void handle(run *r, const SDL_Event *e)
     case SDL_KEYUP:
         if (e->key.keysym.sym == SDLK_b && w->hold) {
             w->hold = false;
-            w->stop = true;
-            w->rendered = 0.0;
+            count_anew(r);
             r->draw_due = 0.0;
         }
         break;
@@ -655,6 +687,8 @@ static void poll_events(run *r)
     while (!r->closed && SDL_PollEvent(&event))
         handle(r, &event);
     w->polled = demo_seconds();
+    if (w->save && !(w->disturbed && r->image.samples == 0)) /* not before there is one */
+        save_view(r);
 }
 
 /* Between two bands of pixels, every few milliseconds, while no thread renders: so the window

@@ -81,4 +81,8 @@ int demo_main(int argc, char **argv, const demo *d)
     return 0;
 }
 
+#define LIVE_H /* nobody looks through a window here: less to compile */
+#include "../demos/explain.h"
+#include "../demos/scene.h"
+static const demo_live live_room;
 #include DEMO /* NOLINT(bugprone-suspicious-include) */

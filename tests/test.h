@@ -179,6 +179,11 @@ double demo_seconds(void)
     return 0.0;
 }
 
+#define LIVE_H /* nobody looks through a window here: less to compile */
+#include "../demos/explain.h"
+#include "../demos/scene.h"
+static const demo_live live_room;
+
 #define main main_of_the_demo
 #include DEMO
 #undef main
