@@ -71,6 +71,7 @@
  *                 RT_PACKETS         packets of rays also where the compiler does not
  *                                    optimise (slow: for tests)
  *                 RT_MALLOC, RT_FREE in place of malloc and free
+ *                 RT_ASSERT          in place of assert, for what cannot happen
  *                 rt_reflect ...     your own routine in place of that one: see below
  *
  * CONVENTIONS     Right-handed world, y up; any unit of length in which no detail is
@@ -139,6 +140,9 @@
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "rt.h: without -ffast-math, -Ofast, -ffinite-math-only please: NaN tests would go."
+#endif
+#ifdef _M_FP_FAST
+#error "rt.h: without /fp:fast please, with /fp:precise: NaN tests would go."
 #endif
 #ifdef __clang__
 #pragma STDC FP_CONTRACT OFF /* undone at the end of the header; gcc needs the flag */
@@ -277,15 +281,24 @@ static inline rt_dvec3 rt_dmad(rt_dvec3 a, double k, rt_dvec3 b)
     return rt_dvec(a.x + k * b.x, a.y + k * b.y, a.z + k * b.z);
 }
 
-/* v / |v|. A vector without a direction (zero, infinite or NaN) becomes (0,0,0). In
- * double, because the square of 1e20 does not fit into a float. */
+static inline rt_dvec3 rt_dcross(rt_dvec3 a, rt_dvec3 b)
+{
+    return rt_dvec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+/* v / |v|. A vector without a direction (zero, infinite or NaN) becomes (0,0,0). */
+static inline rt_dvec3 rt_dnormalize(rt_dvec3 v)
+{
+    const double length = sqrt(rt_ddot(v, v));
+    if (!(length > 0.0 && length <= DBL_MAX)) /* so written that NaN fails, too */
+        return rt_dvec(0.0, 0.0, 0.0);
+    return rt_dscale(v, 1.0 / length);
+}
+
+/* The same for floats. In double, because the square of 1e20 does not fit into a float. */
 static inline rt_vec3 rt_normalize(rt_vec3 v)
 {
-    const rt_dvec3 d = rt_to_double(v);
-    const double length = sqrt(rt_ddot(d, d));
-    if (!(length > 0.0 && length <= DBL_MAX)) /* so written that NaN fails, too */
-        return rt_vec(0.0f, 0.0f, 0.0f);
-    return rt_to_float(rt_dscale(d, 1.0 / length));
+    return rt_to_float(rt_dnormalize(rt_to_double(v)));
 }
 
 static inline bool rt_is_zero(rt_vec3 v)
@@ -416,51 +429,63 @@ typedef struct rt_camera {
                           0 means 45 */
 } rt_camera;
 
-/* The film of a camera: what all rays of one picture have in common. */
+/* The film of a camera: what all rays of one picture have in common. In double, so that a
+ * ray is rounded once, at its end. */
 typedef struct rt__film {
-    rt_vec3 position, forward, right, top; /* unit vectors; forward (0,0,0): no film */
-    float half_width, half_height;         /* in pixels */
-    float size;                            /* of a pixel, at distance 1 */
+    rt_vec3 position;
+    rt_dvec3 forward, right, top;   /* unit vectors; forward (0,0,0): no film */
+    double half_width, half_height; /* in pixels */
+    double size;                    /* of a pixel, at distance 1 */
 } rt__film;
+
+/* tan(degrees / 2), for 0 < degrees < 180: from 90 degrees on, 1 over that of the other
+ * angle of the right-angled triangle. (180 - degrees is exact, and small angles have a
+ * precise sine, whereas near a quarter of a turn the cosine loses its digits.) */
+static inline double rt__tan_half(float degrees)
+{
+    float sine, cosine;
+    const bool narrow = degrees < 90.0f;
+    rt_sincos((narrow ? degrees : 180.0f - degrees) / 720.0f, &sine, &cosine);
+    return narrow ? (double)sine / (double)cosine : (double)cosine / (double)sine;
+}
 
 static inline rt__film rt__film_of(const rt_camera *camera, int width, int height)
 {
     rt__film film;
     const float fov_y = camera->fov_y == 0.0f ? 45.0f : camera->fov_y;
-    const rt_vec3 up =
-        rt_is_zero(camera->up) ? rt_vec(0.0f, 1.0f, 0.0f) : rt_normalize(camera->up);
+    const rt_dvec3 direction = rt_to_double(
+        rt_is_zero(camera->direction) ? rt_vec(0.0f, 0.0f, -1.0f) : camera->direction);
+    const rt_dvec3 up =
+        rt_to_double(rt_is_zero(camera->up) ? rt_vec(0.0f, 1.0f, 0.0f) : camera->up);
     film.position = camera->position;
-    film.forward = rt_is_zero(camera->direction) ? rt_vec(0.0f, 0.0f, -1.0f)
-                                                 : rt_normalize(camera->direction);
-    film.right = rt_normalize(rt_cross(film.forward, up));
-    if (rt_is_zero(film.right))
-        rt_basis(film.forward, &film.right, &film.top);
-    film.top = rt_cross(film.right, film.forward);
-    film.half_width = 0.5f * (float)width;
-    film.half_height = 0.5f * (float)height;
-    film.size = 0.0f;
-    if (!(fov_y > 0.0f && fov_y < 180.0f && width > 0 && height > 0)) {
-        film.forward = rt_vec(0.0f, 0.0f, 0.0f);
+    film.forward = film.right = film.top = rt_dvec(0.0, 0.0, 0.0);
+    film.half_width = 0.5 * (double)width;
+    film.half_height = 0.5 * (double)height;
+    film.size = 0.0;
+    if (!(fov_y > 0.0f && fov_y < 180.0f && width > 0 && height > 0))
         return film;
+    film.forward = rt_dnormalize(direction);
+    /* the product of two floats is exact in double: right is right, however small it is */
+    film.right = rt_dnormalize(rt_dcross(direction, up));
+    if (rt_ddot(film.right, film.right) == 0.0) {
+        rt_vec3 a, b;
+        rt_basis(rt_to_float(film.forward), &a, &b);
+        film.right = rt_to_double(a);
     }
-    float sine, cosine;
-    rt_sincos(fov_y / 720.0f, &sine, &cosine);
-    film.size = 2.0f * sine / cosine / (float)height;
+    film.top = rt_dcross(film.right, film.forward);
+    film.size = 2.0 * rt__tan_half(fov_y) / (double)height;
     return film;
 }
 
 static inline rt_ray rt__film_ray(const rt__film *film, float x, float y)
 {
+    const double to_right = film->size * ((double)x - film->half_width);
+    const double to_top = film->size * (film->half_height - (double)y);
+    const rt_dvec3 toward =
+        rt_dmad(rt_dmad(film->forward, to_right, film->right), to_top, film->top);
     rt_ray ray;
     ray.origin = film->position;
-    ray.direction = film->forward;
-    if (rt_is_zero(film->forward))
-        return ray;
-    const float to_right = film->size * (x - film->half_width);
-    const float to_top = film->size * (film->half_height - y);
-    ray.direction =
-        rt_normalize(rt_add(film->forward, rt_add(rt_scale(film->right, to_right),
-                                                  rt_scale(film->top, to_top))));
+    ray.direction = rt_to_float(rt_dnormalize(toward));
     return ray;
 }
 
@@ -473,10 +498,11 @@ static inline rt_ray rt__film_ray(const rt__film *film, float x, float y)
  *
  *     forward + 2 tan(fov_y/2) / height . ((x - width/2) right + (height/2 - y) top),
  *
- * normalised. y is subtracted because rows count downwards. Where up is parallel to the
- * direction, or not finite, some perpendicular takes its place. A width or height below
- * 1, an angle out of range or a direction that is not finite gives direction (0,0,0): a
- * ray that hits nothing. */
+ * normalised. y is subtracted because rows count downwards. However close up is to the
+ * direction, the three are perpendicular within 1e-6; where it is parallel to it, or not
+ * finite, some perpendicular takes its place. The angle of view is right to 1e-5 degrees.
+ * A width or height below 1, an angle out of range or a direction that is not finite gives
+ * direction (0,0,0): a ray that hits nothing. */
 #ifndef rt_camera_ray
 static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int height,
                                    float x, float y)
@@ -506,42 +532,54 @@ typedef struct rt_hit {
     rt_vec3 point;               /* P, on the surface within rounding */
     rt_vec3 normal;              /* N, unit length, on the side that the ray comes from */
     const rt_material *material; /* of the shape that was hit */
+    int shape; /* its number in the scene: spheres first, then boxes; 0 from rt_hit_... */
 } rt_hit;
 
-/* The smallest t with 0 < t < t_max for which the ray meets the sphere, or 0.
+/* The smallest t with 0 < t < t_max for which the ray meets the sphere, or 0; *m is then P
+ * - O, from the centre to that point.
  *
  * P = C + t u lies on the sphere when |P - O|^2 = R^2. With f = C - O that is
  *
- *     t^2 <u,u> + 2 t <f,u> + <f,f> - R^2 = 0,     a t^2 + 2 b t + c = 0,
+ *     t^2 <u,u> + 2 t <f,u> + <f,f> - R^2 = 0,
  *
- * whose roots are t = (-b -+ sqrt(b^2 - a c)) / a. No real root: the ray passes by. Both
- * are negative where we are outside (c > 0) and going away (b > 0): the sphere is behind
- * us. Else the smaller root is the way in; if it is negative, too, we are inside, and the
- * larger one is the way out.
+ * a quadratic equation. Its roots lie on both sides of their mean t0 = -<f,u> / <u,u>,
+ * where the ray is nearest to the centre, l = f + t0 u away from it. There u is
+ * perpendicular to l, so half of the way through the sphere is, by Pythagoras,
  *
- * The formula is the textbook's, but in double: for a wall of radius 1e5, c is a small
- * difference of two numbers near 1e10, of which a float keeps seven digits: none is left.
- * All comparisons are so written that NaN is a miss. */
+ *     h = sqrt((R^2 - <l,l>) / <u,u>),     and     t = t0 -+ h.
+ *
+ * If l is longer than R, the ray passes by. Else the smaller root is the way in; if it is
+ * negative, we are inside, and the larger one is the way out; if that is negative, too,
+ * the sphere is behind us.
+ *
+ * In double, because a wall of radius 1e5 needs digits that a float has not. And by l,
+ * because the discriminant of the textbook, b^2 - a c, is a small difference of large
+ * numbers where a sphere is small and far away: with l it is found from 1e12 radii away
+ * (E. Haines et al., "Precision improvements for ray/sphere intersection", Ray Tracing
+ * Gems, 2019). All comparisons are so written that NaN is a miss. */
 #ifndef rt_hit_sphere
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
-                                     float t_max)
+                                     float t_max, rt_dvec3 *m)
 {
     const rt_dvec3 u = rt_to_double(ray->direction);
     const rt_dvec3 f = rt_dsub(rt_to_double(ray->origin), rt_to_double(sphere->center));
     const double radius = (double)sphere->radius;
 
     const double a = rt_ddot(u, u);
-    const double b = rt_ddot(f, u);
-    const double c = rt_ddot(f, f) - radius * radius;
-    const double discriminant = b * b - a * c;
-    if (!(discriminant >= 0.0 && a > 0.0 && radius > 0.0) || (c > 0.0 && b >= 0.0))
+    if (!(a > 0.0 && radius > 0.0))
+        return 0.0;
+    const double t0 = -rt_ddot(f, u) / a;
+    const rt_dvec3 l = rt_dmad(f, t0, u);
+    const double inside = radius * radius - rt_ddot(l, l);
+    if (!(inside >= 0.0))
         return 0.0;
 
-    const double root = sqrt(discriminant);
-    double t = (-b - root) / a;
-    if (!((float)t > 0.0f))
-        t = (-b + root) / a;
-    return (float)t > 0.0f && t <= (double)FLT_MAX && (float)t < t_max ? t : 0.0;
+    double h = -sqrt(inside / a);
+    if (!(t0 + h >= (double)FLT_MIN)) /* a t so small counts as 0 */
+        h = -h;
+    const double t = t0 + h;
+    *m = rt_dmad(l, h, u);
+    return t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max ? t : 0.0;
 }
 
 /* The first point of the sphere on the ray with 0 < t < t_max, see above.
@@ -549,32 +587,33 @@ static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
  * Returns false, and leaves *hit alone, on a miss; NaN or infinity anywhere, a direction
  * of length 0 and a radius that is not positive are misses.
  *
- * In double again; P is put back onto the sphere, O + R N, so that its error does not
- * grow with t. */
+ * In double again. m / R has length 1 but for what rounding did to a ray from far away, and
+ * one step of Newton's method for 1/|n| mends that; then P is put back onto the sphere, O +
+ * R n, so that its error does not grow with t. */
 static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
                                  rt_hit *hit)
 {
-    const double t = rt__meet_sphere(sphere, ray, t_max);
+    rt_dvec3 m;
+    const double t = rt__meet_sphere(sphere, ray, t_max, &m);
     if (!(t > 0.0))
         return false;
     const rt_dvec3 u = rt_to_double(ray->direction);
-    const rt_dvec3 center = rt_to_double(sphere->center);
-    rt_dvec3 n = rt_dmad(rt_dsub(rt_to_double(ray->origin), center), t, u); /* P - O */
-    const double length = sqrt(rt_ddot(n, n)); /* R, but for rounding */
-    if (!(length > 0.0))
-        return false; /* so small and so far away that no direction is left */
-    n = rt_dscale(n, 1.0 / length);
+    const double radius = (double)sphere->radius;
+    rt_dvec3 n = rt_dscale(m, 1.0 / radius);
+    n = rt_dscale(n, 1.5 - 0.5 * rt_ddot(n, n));
     hit->t = (float)t;
-    hit->point = rt_to_float(rt_dmad(center, (double)sphere->radius, n));
+    hit->point = rt_to_float(rt_dmad(rt_to_double(sphere->center), radius, n));
     hit->normal = rt_to_float(rt_dscale(n, rt_ddot(n, u) > 0.0 ? -1.0 : 1.0));
     hit->material = &sphere->material;
+    hit->shape = 0;
     return true;
 }
 #else /* by yours */
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
-                                     float t_max)
+                                     float t_max, rt_dvec3 *m)
 {
     rt_hit hit;
+    *m = rt_dvec(0.0, 0.0, 0.0); /* nobody asks */
     return rt_hit_sphere(sphere, ray, t_max, &hit) ? (double)hit.t : 0.0;
 }
 #endif
@@ -612,6 +651,19 @@ typedef struct rt_scene {
 
 static inline float rt__meet_box(const rt_box *box, const rt_ray *ray,
                                  float t_max); /* chapter 3 */
+
+/* The whole hit of the shape with this number. */
+static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
+                                 rt_hit *hit)
+{
+    const int box = number - scene->sphere_count;
+    const bool found = box < 0 ? rt_hit_sphere(&scene->spheres[number], ray, FLT_MAX, hit)
+                               : rt_hit_box(&scene->boxes[box], ray, FLT_MAX, hit);
+    if (found)
+        hit->shape = number;
+    return found;
+}
+
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit); /* chapter 8 */
 
@@ -624,26 +676,24 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
 {
     if (scene->bvh)
         return rt__intersect_bvh(scene, ray, hit); /* the same answer, sooner */
-    const rt_sphere *sphere = NULL;
-    const rt_box *box = NULL;
+    int nearest = -1;
     float t_max = FLT_MAX;
+    rt_dvec3 m;
     for (int i = 0; i < scene->sphere_count; i++) {
-        const float t = (float)rt__meet_sphere(&scene->spheres[i], ray, t_max);
+        const float t = (float)rt__meet_sphere(&scene->spheres[i], ray, t_max, &m);
         if (t > 0.0f) {
             t_max = t;
-            sphere = &scene->spheres[i];
+            nearest = i;
         }
     }
     for (int i = 0; i < scene->box_count; i++) {
         const float t = rt__meet_box(&scene->boxes[i], ray, t_max);
         if (t > 0.0f) {
             t_max = t;
-            box = &scene->boxes[i];
+            nearest = scene->sphere_count + i;
         }
     }
-    if (box)
-        return rt_hit_box(box, ray, FLT_MAX, hit);
-    return sphere && rt_hit_sphere(sphere, ray, FLT_MAX, hit);
+    return nearest >= 0 && rt__hit_shape(scene, nearest, ray, hit);
 }
 #endif
 
@@ -681,6 +731,16 @@ typedef struct rt__slabs {
     int axis_in, axis_out; /* 0, 1, 2 stand for x, y, z */
 } rt__slabs;
 
+/* way / u, at most FLT_MAX: what is farther away is as good as infinitely far, and a
+ * division that overflows would stop a program that traps such things. Below 1e-22 it may,
+ * since no way is longer than 1e16. */
+static inline float rt__quotient(float way, float u)
+{
+    if (fabsf(u) < 1e-22f && fabsf(way) > fabsf(u) * FLT_MAX)
+        return (way > 0.0f) == (u > 0.0f) ? FLT_MAX : -FLT_MAX;
+    return way / u;
+}
+
 /* Cut with the slab low <= x <= high, on one axis: the ray crosses its two planes at
  * t = (low - C) / u and (high - C) / u. False when nothing is left of the ray. */
 static inline bool rt__cut(rt__slabs *slabs, int axis, float low, float high,
@@ -690,8 +750,8 @@ static inline bool rt__cut(rt__slabs *slabs, int axis, float low, float high,
         return false;
     if (direction == 0.0f) /* parallel to the planes: always between them, or never */
         return low <= origin && origin <= high;
-    const float t_low = (low - origin) / direction;
-    const float t_high = (high - origin) / direction;
+    const float t_low = rt__quotient(low - origin, direction);
+    const float t_high = rt__quotient(high - origin, direction);
     const float t_in = direction > 0.0f ? t_low : t_high;
     const float t_out = direction > 0.0f ? t_high : t_low;
     if (t_in > slabs->t_in) {
@@ -725,6 +785,20 @@ static inline float rt__cut_box(const rt_box *box, const rt_ray *ray, float t_ma
     return t > 0.0f && t < t_max && t < FLT_MAX ? t : 0.0f; /* FLT_MAX: no plane */
 }
 
+/* A coordinate of P, a little back toward that of the ray's origin C, but not beyond it.
+ *
+ * P = C + t u is rounded, and next to an edge it may come to lie on the far side of the
+ * wall beside, from where a path would leave a closed room. Both t are wrong by two
+ * roundings at most, and P by two more: 8 eps max(|P|, |C|) is more than all of them
+ * together. So what was between two walls before stays strictly between them. */
+static inline float rt__back(float p, float origin)
+{
+    const float size = fabsf(p) > fabsf(origin) ? fabsf(p) : fabsf(origin);
+    const float step = 8.0f * FLT_EPSILON * size;
+    const float back = p > origin ? p - step : p + step;
+    return (back > origin) == (p > origin) ? back : origin;
+}
+
 /* The first point of the box's surface on the ray with 0 < t < t_max.
  *
  * The normal is that of the plane through which the ray comes or, from inside, goes; on
@@ -748,10 +822,12 @@ static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
         return false;
     const bool inside = !(slabs.t_in > 0.0f);
 
+    const rt_vec3 p = rt_at(ray, t), o = ray->origin;
     hit->t = t;
-    hit->point = rt_at(ray, t);
+    hit->point = rt_vec(rt__back(p.x, o.x), rt__back(p.y, o.y), rt__back(p.z, o.z));
     hit->normal = rt_vec(0.0f, 0.0f, 0.0f);
     hit->material = &box->material;
+    hit->shape = 0;
     /* the normal against the ray, and the point exactly onto the plane */
     switch (inside ? slabs.axis_out : slabs.axis_in) {
     case 0:
@@ -819,8 +895,9 @@ static inline bool rt_occluded(const rt_scene *scene, const rt_ray *ray, float t
 {
     if (scene->bvh)
         return rt__occluded_bvh(scene, ray, t_max);
+    rt_dvec3 m;
     for (int i = 0; i < scene->sphere_count; i++)
-        if (rt__meet_sphere(&scene->spheres[i], ray, t_max) > 0.0)
+        if (rt__meet_sphere(&scene->spheres[i], ray, t_max, &m) > 0.0)
             return true;
     for (int i = 0; i < scene->box_count; i++)
         if (rt__meet_box(&scene->boxes[i], ray, t_max) > 0.0f)
@@ -843,6 +920,13 @@ static inline bool rt_visible(const rt_scene *scene, rt_vec3 point, rt_vec3 norm
 }
 #endif
 
+/* Who wants to look at the clock from time to time, also during a path that takes long: see
+ * rt_render. */
+typedef struct rt_watch {
+    int ticks; /* look when they have gone by */
+    void (*look)(struct rt_watch *watch);
+} rt_watch;
+
 /* What one sample of one pixel carries along. The random numbers come in chapter 7; rays
  * are counted from here on. */
 typedef struct rt_rng {
@@ -851,7 +935,14 @@ typedef struct rt_rng {
     uint32_t rays;      /* how many rays were traced: for statistics only */
     bool sobol;         /* not random numbers but those of chapter 9, and ... */
     uint32_t sample;    /* ... of which sample */
+    rt_watch *watch;    /* NULL: nobody looks at the clock */
 } rt_rng;
+
+static inline void rt__tick(rt_watch *watch)
+{
+    if (watch && --watch->ticks <= 0)
+        watch->look(watch);
+}
 
 /* Direct light: the sum of Lambert's law over the lights that the point sees. Shadow rays
  * are traced to the lights in front of the surface only, and counted in *rng. */
@@ -940,6 +1031,7 @@ static inline rt_rng rt_rng_start(uint32_t pixel, uint32_t sample, uint32_t seed
     rng.rays = 0;
     rng.sobol = false;
     rng.sample = sample;
+    rng.watch = NULL;
     return rng;
 }
 
@@ -980,6 +1072,27 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
 }
 #endif
 
+/* Is nothing left of the light, at least nothing that a float can hold with all digits? (A
+ * product may stick at the smallest number of all and never become 0: of 1.4e-45 . 0.8 that
+ * is the nearest.) */
+static inline bool rt__is_spent(rt_vec3 throughput)
+{
+    return throughput.x < FLT_MIN && throughput.y < FLT_MIN && throughput.z < FLT_MIN;
+}
+
+/* Russian roulette: with which probability a path goes on that has this throughput. The
+ * less there is to expect, the sooner it ends; and it ends in a room of white walls, too. */
+static inline float rt__chance(rt_vec3 throughput)
+{
+    float most = throughput.x > throughput.y ? throughput.x : throughput.y;
+    most = most > throughput.z ? most : throughput.z;
+    return most < 0.95f ? most : 0.95f;
+}
+
+/* As many bounces as it takes, by roulette, which begins at this one. */
+#define RT_ALL_BOUNCES INT_MAX
+#define RT__ROULETTE 4
+
 /* The radiance that comes back along the ray: an estimate from one random path, whose
  * mean over many paths is right.
  *
@@ -991,12 +1104,16 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
  * divided by the density: rho . Li(w). Cosine and pi cancel, and Li(w) is the same
  * question again, asked from P. So the path goes on and multiplies by rho at every
  * bounce; that product is its throughput. A mirror leaves no choice of direction: w = R.
+ * A path ends when its throughput is spent.
  *
  * bounces is how often the ray may be sent on after its first hit, by mirror or
  * diffusely; 0 is direct light only; negative counts as 0 here, and rt_render refuses it.
  * What would have come after is left out: in a closed room of albedo rho the picture
- * lacks the part rho^(bounces+1). A loop, not a recursion: any number of bounces needs
- * the same stack. Random numbers and the count of rays come from *rng.
+ * lacks the part rho^(bounces+1). RT_ALL_BOUNCES leaves nothing out: a path goes on with
+ * probability p, and then its throughput is divided by p, so that the mean is the same.
+ * That is Russian roulette (J. Arvo, D. Kirk, "Particle transport and image synthesis",
+ * SIGGRAPH 1990). A loop, not a recursion: any number of bounces needs the same stack.
+ * Random numbers and the count of rays come from *rng.
  *
  * J. Kajiya, "The rendering equation", SIGGRAPH 1986. */
 #ifndef rt_radiance
@@ -1009,6 +1126,7 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
     for (int bounce = 0;; bounce++) {
         rt_hit hit;
         rng->rays++;
+        rt__tick(rng->watch);
         if (!rt_intersect(scene, &ray, &hit))
             return rt_add(sum, rt_mul(throughput, scene->background));
 
@@ -1029,8 +1147,15 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
             direction = rt_sample_cosine(hit.normal, r1, r2);
             throughput = rt_mul(throughput, material->albedo);
         }
-        if (rt_is_zero(throughput))
+        if (rt__is_spent(throughput))
             return sum; /* nothing that comes from here on would count */
+        if (bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
+            const float chance = rt__chance(throughput), r = rt_random(rng);
+            rt_random(rng); /* not used: numbers come in pairs, see chapter 9 */
+            if (r >= chance)
+                return sum;
+            throughput = rt_scale(throughput, 1.0f / chance);
+        }
         ray.origin = rt_leave(hit.point, hit.normal, direction);
         ray.direction = direction;
     }
@@ -1079,18 +1204,28 @@ typedef struct rt_bvh {
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
-/* 1/u, but finite for u = 0: so large that what is outside stays outside. */
-static inline float rt__inverse(float u)
+/* 1/u, but finite for u = 0: so large that what is outside stays outside. In double, where
+ * no product of it overflows. */
+static inline rt_dvec3 rt__inverse(rt_vec3 u)
 {
-    return fabsf(u) > 1e-37f ? 1.0f / u : u < 0.0f ? -1e37f : 1e37f;
+    const rt_dvec3 v = rt_to_double(u);
+    return rt_dvec(v.x != 0.0 ? 1.0 / v.x : 1e200, v.y != 0.0 ? 1.0 / v.y : 1e200,
+                   v.z != 0.0 ? 1.0 / v.z : 1e200);
+}
+
+/* That as a float, for packets: no larger than 1e37. */
+static inline float rt__moderate(double inverse)
+{
+    return inverse > 1e37 ? 1e37f : inverse < -1e37 ? -1e37f : (float)inverse;
 }
 
 /* The part of a ray between two planes of an axis, low and high: cut t_in, t_out down. */
-static inline void rt__trim(float low, float high, float origin, float inverse,
-                            float *t_in, float *t_out)
+static inline void rt__trim(float low, float high, float origin, double inverse,
+                            double *t_in, double *t_out)
 {
-    const float a = (low - origin) * inverse, b = (high - origin) * inverse;
-    const float in = a < b ? a : b, out = a < b ? b : a;
+    const double a = ((double)low - (double)origin) * inverse;
+    const double b = ((double)high - (double)origin) * inverse;
+    const double in = a < b ? a : b, out = a < b ? b : a;
     *t_in = in > *t_in ? in : *t_in;
     *t_out = out < *t_out ? out : *t_out;
 }
@@ -1098,26 +1233,34 @@ static inline void rt__trim(float low, float high, float origin, float inverse,
 /* Which of the node's boxes the ray meets with 0 < t < t_max: bit k of the result for box
  * k, and t[k], where it enters it. The slabs of chapter 3, with products in place of
  * quotients: it may say yes to a ray that misses by a rounding, but never no to one that
- * hits. The error is below 6 roundings: pbrt, section 6.8.2. */
+ * hits: t may be too small by four roundings of a float, which is more than what the chapters
+ * do wrong. */
 static inline unsigned rt__enter(const rt_bvh_node *node, const rt_ray *ray,
-                                 rt_vec3 inverse, float t_max, float *t)
+                                 const rt_dvec3 *inverse, float t_max, float *t)
 {
     const rt_vec3 o = ray->origin;
     unsigned result = 0;
     for (int k = 0; k < node->count; k++) {
-        float t_in = 0.0f, t_out = t_max;
-        rt__trim(node->min_x[k], node->max_x[k], o.x, inverse.x, &t_in, &t_out);
-        rt__trim(node->min_y[k], node->max_y[k], o.y, inverse.y, &t_in, &t_out);
-        rt__trim(node->min_z[k], node->max_z[k], o.z, inverse.z, &t_in, &t_out);
-        t[k] = t_in * (1.0f - 4.0f * FLT_EPSILON);
-        if (t[k] <= t_out)
-            result |= 1u << k;
+        double t_in = 0.0, t_out = (double)t_max;
+        rt__trim(node->min_x[k], node->max_x[k], o.x, inverse->x, &t_in, &t_out);
+        rt__trim(node->min_y[k], node->max_y[k], o.y, inverse->y, &t_in, &t_out);
+        rt__trim(node->min_z[k], node->max_z[k], o.z, inverse->z, &t_in, &t_out);
+        t_in *= 1.0 - 4.0 * (double)FLT_EPSILON;
+        if (!(t_in <= t_out))
+            continue;
+        t[k] = (float)t_in;
+        result |= 1u << k;
     }
     return result;
 }
 
 typedef unsigned rt__enter_function(const rt_bvh_node *node, const rt_ray *ray,
-                                    rt_vec3 inverse, float t_max, float *t);
+                                    const rt_dvec3 *inverse, float t_max, float *t);
+
+static inline bool rt__is_finite(rt_vec3 v)
+{
+    return v.x * 0.0f + v.y * 0.0f + v.z * 0.0f == 0.0f; /* infinity and NaN: NaN */
+}
 
 /* The number of the lowest bit that is set. */
 static inline int rt__lowest(unsigned bits)
@@ -1132,22 +1275,14 @@ static inline int rt__lowest(unsigned bits)
 #endif
 }
 
-/* The t at which the ray meets the shape with this number, or 0; and the whole hit. */
+/* The t at which the ray meets the shape with this number, or 0. */
 static inline float rt__meet_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                    float t_max)
 {
+    rt_dvec3 m;
     return number < scene->sphere_count
-               ? (float)rt__meet_sphere(&scene->spheres[number], ray, t_max)
+               ? (float)rt__meet_sphere(&scene->spheres[number], ray, t_max, &m)
                : rt__meet_box(&scene->boxes[number - scene->sphere_count], ray, t_max);
-}
-
-static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
-                                 rt_hit *hit)
-{
-    return number < scene->sphere_count
-               ? rt_hit_sphere(&scene->spheres[number], ray, FLT_MAX, hit)
-               : rt_hit_box(&scene->boxes[number - scene->sphere_count], ray, FLT_MAX,
-                            hit);
 }
 
 /* What a ray on its way through the tree has yet to look at: a shape or a node (see
@@ -1155,8 +1290,11 @@ static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray
  * the upper half: floats above 0 are in the same order as their bits. */
 typedef uint64_t rt__item;
 
-/* So many of them may wait, and never more do: rt_build_bvh takes care of it. */
-#define RT__WAITING 256
+/* So many of them may wait, and never more do. Each node that the search enters puts up to
+ * eight on the stack, of which one has been taken when it enters the next, further down. So
+ * at the end of a way down through L levels there are 7 L + 1 at most, and rt_build_bvh
+ * makes trees of at most RT__LEVELS levels. */
+enum { RT__LEVELS = 32, RT__WAITING = 7 * RT__LEVELS + 1 };
 
 static inline rt__item rt__make_item(float t, int inside)
 {
@@ -1180,16 +1318,16 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
                           rt__enter_function *enter)
 {
     rt__item waiting[RT__WAITING];
-    const rt_vec3 inverse =
-        rt_vec(rt__inverse(ray->direction.x), rt__inverse(ray->direction.y),
-               rt__inverse(ray->direction.z));
+    if (!rt__is_finite(ray->origin) || !rt__is_finite(ray->direction))
+        return -1; /* else it would be asked of all shapes, in vain */
+    const rt_dvec3 inverse = rt__inverse(ray->direction);
     const rt_bvh_node *node = scene->bvh->nodes;
     float t[8];
     int best = -1, count = 0;
     for (;;) {
         const int before = count;
         rt__item first = UINT64_MAX;
-        for (unsigned in = enter(node, ray, inverse, t_max, t); in != 0; in &= in - 1u) {
+        for (unsigned in = enter(node, ray, &inverse, t_max, t); in != 0; in &= in - 1u) {
             const int k = rt__lowest(in);
             const rt__item item = rt__make_item(t[k], node->inside[k]);
             waiting[count++] = item > first ? item : first;
@@ -1326,8 +1464,8 @@ static inline uint32_t rt__sobol(const rt_rng *rng)
 
 /* A picture of linear RGB, row by row from the top: pixel (x, y) is pixels[y * width +
  * x]. The memory is yours, width * height vectors; it need not be cleared. At any time a
- * pixel holds the mean of its samples so far. To begin again, set samples, done and rays
- * to 0. */
+ * pixel holds the mean of its samples so far, and rt_render adds to them: before another
+ * picture goes into the same memory, call rt_image_clear, else the two are mixed. */
 typedef struct rt_image {
     int width, height;
     rt_vec3 *pixels;
@@ -1338,7 +1476,18 @@ typedef struct rt_image {
     rt_vec3 *half; /* NULL, or as many vectors again, for the mean of every second sample:
                       then the error can be estimated, see rt_image_error. Not to be added
                       or taken away while samples or done are above 0 */
+    rt_vec3 *rest; /* NULL, or as many vectors again, with half twice as many, for what is
+                      left when the means are rounded. Means of more than some thousands
+                      of samples need it, see rt_render. To be added or taken away as half
+                      is */
 } rt_image;
+
+/* Begin a new picture in the same memory. */
+static inline void rt_image_clear(rt_image *image)
+{
+    image->samples = image->done = 0;
+    image->rays = 0;
+}
 
 typedef enum rt_sampler {
     RT_SOBOL, /* the numbers of chapter 9 */
@@ -1349,13 +1498,15 @@ typedef enum rt_sampler {
 typedef struct rt_options {
     int samples;   /* per pixel, to be added to those the image has; 0 means 16, or with
                       error or seconds as many as they allow */
-    int bounces;   /* see rt_radiance; 0 is direct light only */
+    int bounces;   /* see rt_radiance; 0 is direct light only, RT_ALL_BOUNCES all light */
     int threads;   /* 1 to 1024; 0 means as many as OpenMP offers */
     uint32_t seed; /* another seed, another noise */
 
-    /* Called on the thread that called rt_render, many times a second, while no other
-     * thread works: it may read the image. part goes from 0 to 1. Return false to stop.
-     */
+    /* Called on the thread that called rt_render, soon after the start and then every 15
+     * ms or so, also during a path that takes longer. No thread writes to the image
+     * meanwhile: it may be read. part goes from 0 to 1. Return false to stop; what the
+     * threads have begun is finished before. It must come back: no longjmp, no C++
+     * exception out of it, for threads and memory would be lost. */
     bool (*progress)(void *user, float part);
     void *user; /* handed to progress */
 
@@ -1404,11 +1555,18 @@ typedef rt_vec3 rt_pixel_function(const void *context, float x, float y, rt_rng 
  * without lights the part of it that arrives. A scene without a bvh gets one for the time
  * of the call; build it yourself if you render many shapes again and again.
  *
+ * A mean of floats drifts: where most samples are dark and few bright, each dark one is
+ * rounded the same way, and of 2^18 samples the mean may be wrong by 0.5 %, of 2^25 by 5 %.
+ * With image->rest it is right to 1e-6, at 12 bytes more for each pixel, 24 with half. A
+ * call for more than 4096 samples borrows that much from RT_MALLOC while it runs; lend it
+ * if so many are to come in several calls.
+ *
  * RT_OK when all samples are done, or the wanted error is reached, or the time is over.
  * RT_CANCELLED if progress returned false before that: the image holds what was done by
  * then, and the same call with what is left of the samples goes on from there, to the
- * same bits as without the stop. On any other status the image is untouched; for a bad
- * shape or light, rt_check_scene tells which. */
+ * same bits as without the stop (where rest is borrowed, to the same but for a rounding).
+ * On any other status the image is untouched; for a bad shape or light, rt_check_scene
+ * tells which. */
 RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
                           const rt_options *options, rt_image *image);
 
@@ -1461,7 +1619,8 @@ typedef struct rt_path {
     int max_shadows, shadow_count;
     rt_vec3 value; /* of the sample: the sum of throughput . light over the vertices */
     uint32_t rays; /* how many it took */
-    const rt_scene *scene; /* while it is traced */
+    const rt_scene *scene; /* while it is traced, */
+    int bounces;           /* and with so many */
 } rt_path;
 
 /* Follow one sample of the pixel (x, y) of the image once more, and write it down:
@@ -1480,11 +1639,9 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
                                int y, int sample, rt_path *path);
 
 /* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
- * set scene->bvh = bvh. When a shape or its material changes, build it anew. (A sphere
- * smaller than a millionth of its distance may be missed with the tree or hit without
- * it: double does not tell.) Memory: 130 bytes are asked of RT_MALLOC for each
- * shape, of which some 80 are used, for rt_free_bvh to give back; and 28 more while it
- * builds.
+ * set scene->bvh = bvh. When a shape or its material changes, build it anew. Memory: 130
+ * bytes are asked of RT_MALLOC for each shape, of which some 80 are used, for rt_free_bvh
+ * to give back; and 28 more while it builds.
  *
  * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
 RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
@@ -1521,25 +1678,37 @@ RTDEF const char *rt_status_text(rt_status status);
 
 /* ---- for rt_trace_pixel ---------------------------------------------------------- */
 
-/* The number of the shape that has this material. */
-static inline int rt__shape_number(const rt_scene *scene, const rt_material *material)
+/* The number of the shape that was hit; a routine of your own need not know it, so then it
+ * is the one that has the material. */
+static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
 {
+#ifdef rt_intersect
     for (int i = 0; i < scene->sphere_count; i++)
-        if (&scene->spheres[i].material == material)
+        if (&scene->spheres[i].material == hit->material)
             return i;
     for (int i = 0; i < scene->box_count; i++)
-        if (&scene->boxes[i].material == material)
+        if (&scene->boxes[i].material == hit->material)
             return scene->sphere_count + i;
     return -1;
+#else
+    (void)scene;
+    return hit->shape;
+#endif
 }
 
-/* The part of the light that arrives by way of this point, as in rt_radiance. */
-static inline rt_vec3 rt__throughput(const rt_vertex *v)
+/* The part of the light that arrives by way of vertex number n, as in rt_radiance. */
+static inline rt_vec3 rt__throughput(const rt_path *path, int n)
 {
+    const rt_vertex *v = &path->vertices[n];
     const rt_material *material = v->hit.material;
-    if (!material || (material->mirror && rt_is_zero(material->albedo)))
+    if (!material)
         return v->throughput;
-    return rt_mul(v->throughput, material->albedo);
+    rt_vec3 throughput = v->throughput;
+    if (!(material->mirror && rt_is_zero(material->albedo)))
+        throughput = rt_mul(throughput, material->albedo);
+    if (path->bounces == RT_ALL_BOUNCES && n >= RT__ROULETTE)
+        throughput = rt_scale(throughput, 1.0f / rt__chance(throughput));
+    return throughput;
 }
 
 static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
@@ -1552,11 +1721,11 @@ static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
         rt_vertex *v = &path->vertices[n];
         memset(v, 0, sizeof *v);
         v->ray = *ray;
-        v->throughput = n == 0 ? rt_vec(1.0f, 1.0f, 1.0f) : rt__throughput(v - 1);
+        v->throughput = n == 0 ? rt_vec(1.0f, 1.0f, 1.0f) : rt__throughput(path, n - 1);
         v->shape = -1;
         if (found) {
             v->hit = *hit;
-            v->shape = rt__shape_number(scene, hit->material);
+            v->shape = rt__shape_number(scene, hit);
         } else {
             v->light = scene->background;
         }
@@ -1599,7 +1768,7 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
                                    light->intensity);
         v->light = rt_add(v->light, s->light_sent);
     } else if (rt_intersect(path->scene, ray, &between)) {
-        s->blocker = rt__shape_number(scene, between.material);
+        s->blocker = rt__shape_number(scene, &between);
         s->t = between.t;
     }
     return blocked;
@@ -1624,6 +1793,10 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
 #else
 #include <time.h>
 #endif
+#ifndef RT_ASSERT
+#include <assert.h>
+#define RT_ASSERT(condition) assert(condition)
+#endif
 #ifndef RT_MALLOC
 #include <stdlib.h>
 #define RT_MALLOC(size) malloc(size)
@@ -1634,30 +1807,53 @@ RTDEF const char *rt_status_text(rt_status status)
 {
     switch (status) {
     case RT_OK: return "no error";
-    case RT_CANCELLED: return "stopped by the progress function";
-    case RT_NO_MEMORY: return "not enough memory";
+    case RT_CANCELLED:
+        return "stopped by the progress function; render again to go on from there";
+    case RT_NO_MEMORY:
+        return "not enough memory: take fewer shapes, a smaller picture, or no more than "
+               "4096 samples in one call";
     case RT_BAD_POINTER:
-        return "an argument is NULL, or an array of the scene is, or a count is negative";
+        return "an argument is NULL, or an array of the scene is, or a count is "
+               "negative: "
+               "set the pointer, or the count to 0";
     case RT_BAD_SIZE:
-        return "image: width and height at least 1, their product an int, done less than "
-               "it";
-    case RT_BAD_SAMPLES: return "samples must not be negative, nor pass 2^31 - 1 in all";
-    case RT_BAD_BOUNCES: return "bounces must not be negative";
-    case RT_BAD_THREADS: return "threads must be 0 to 1024";
-    case RT_BAD_SAMPLER: return "sampler must be RT_SOBOL or RT_RANDOM";
-    case RT_BAD_ERROR: return "error must not be negative, and needs image->half";
-    case RT_BAD_SECONDS: return "seconds must not be negative";
+        return "image: make width and height at least 1, their product at most 2^31 - 1, "
+               "done at least 0 and less than that";
+    case RT_BAD_SAMPLES:
+        return "samples: make options.samples and image.samples at least 0, and both "
+               "together at most 2^31 - 1";
+    case RT_BAD_BOUNCES:
+        return "bounces: make it at least 0; RT_ALL_BOUNCES is all light";
+    case RT_BAD_THREADS: return "threads: make it 1 to 1024, or 0 for all cores";
+    case RT_BAD_SAMPLER: return "sampler: make it RT_SOBOL or RT_RANDOM";
+    case RT_BAD_ERROR:
+        return "error: make it at least 0, and give image.half memory, or make it 0";
+    case RT_BAD_SECONDS: return "seconds: make it at least 0; 0 is no limit";
     case RT_BAD_LANES:
-        return "lanes must be 0, 1, 4, 8 or 16, at most what rt_lane_count(0) says";
-    case RT_BAD_BVH: return "bvh: empty, freed, or built for another number of shapes";
-    case RT_BAD_PIXEL: return "pixel: x and y in the image, sample not negative";
-    case RT_BAD_CAMERA: return "camera: numbers up to 1e15, and 0 <= fov_y < 180";
-    case RT_BAD_SPHERE: return "sphere: numbers up to 1e15, radius > 0, albedo 0 to 1";
-    case RT_BAD_BOX: return "box: numbers up to 1e15, min <= max, albedo 0 to 1";
-    case RT_BAD_LIGHT: return "light: numbers up to 1e15, intensity not negative";
-    case RT_BAD_BACKGROUND: return "background: numbers up to 1e15, not negative";
+        return "lanes: make it 0, or 1, 4, 8 or 16, at most what rt_lane_count(0) says";
+    case RT_BAD_BVH:
+        return "bvh: build it with rt_build_bvh after the last change of the scene, or "
+               "set "
+               "scene.bvh to NULL";
+    case RT_BAD_PIXEL:
+        return "pixel: make x and y those of a pixel of the image, and sample at least 0";
+    case RT_BAD_CAMERA:
+        return "camera: make all its numbers at most 1e15, and fov_y 0 (for 45) or above "
+               "0 and below 180 degrees";
+    case RT_BAD_SPHERE:
+        return "sphere: make its numbers at most 1e15, the radius above 0, albedo 0 to "
+               "1; "
+               "rt_check_scene tells which sphere";
+    case RT_BAD_BOX:
+        return "box: make its numbers at most 1e15, min at most max in x, y and z, "
+               "albedo "
+               "0 to 1; rt_check_scene tells which box";
+    case RT_BAD_LIGHT:
+        return "light: make its numbers at most 1e15, no intensity negative; "
+               "rt_check_scene tells which light";
+    case RT_BAD_BACKGROUND: return "background: make it 0 to 1e15 in red, green and blue";
     }
-    return "unknown status";
+    return "unknown status: not one that rt.h returns";
 }
 
 /* All three components in [low, high]; NaN is not. */
@@ -1907,7 +2103,9 @@ static inline int rt__split(const rt__bounds *bounds, int *order, int count)
     return left;
 }
 
-/* Cut a group into up to eight: always the one that costs most. Returns how many. */
+/* Cut a group into up to eight: always the one that costs most, or in halves, the one with
+ * the most shapes: then none of the eight has more than an eighth of them, rounded up.
+ * Returns how many. */
 static inline int rt__split_in_eight(const rt__bounds *bounds, int *order, bool in_halves,
                                      rt__group *groups)
 {
@@ -1916,7 +2114,8 @@ static inline int rt__split_in_eight(const rt__bounds *bounds, int *order, bool 
         int worst = -1;
         double worst_cost = -1.0;
         for (int k = 0; k < count; k++) {
-            const double cost = rt__area(&groups[k].bounds) * groups[k].count;
+            const double area = in_halves ? 1.0 : rt__area(&groups[k].bounds);
+            const double cost = area * groups[k].count;
             if (groups[k].count > 1 && cost > worst_cost) {
                 worst_cost = cost;
                 worst = k;
@@ -1947,9 +2146,14 @@ static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
     node->max_z[k] = b->max.z;
 }
 
-/* All nodes. Groups that wait to become nodes are on a stack. A tree that grows too
- * deep - shapes at 1, 2, 4, 8 ... - is cut in halves from some depth on: 20 + 31 / 3
- * levels, seven boxes waiting in each. */
+/* Which level of the tree is the first to be cut in halves. Above it the cheapest cut may
+ * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level there
+ * are less than 2^31 shapes in a node, in each of the next ten at most an eighth as many:
+ * 2^28, 2^25 ... 2. Two shapes need no further level, so there are 21 + 11 levels. */
+enum { RT__HALVES = RT__LEVELS - 11 };
+
+/* All nodes. Groups that wait to become nodes are on a stack, never more of them than boxes
+ * on that of rt__search. */
 static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *order,
                                    int count)
 {
@@ -1969,8 +2173,9 @@ static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *o
         rt_bvh_node *node = &bvh->nodes[todo[waiting].node];
         const int depth = todo[waiting].depth;
         rt__group groups[8];
+        RT_ASSERT(depth < RT__LEVELS && waiting + 8 <= RT__WAITING);
         groups[0] = todo[waiting].group;
-        node->count = rt__split_in_eight(bounds, order, depth > 20, groups);
+        node->count = rt__split_in_eight(bounds, order, depth >= RT__HALVES, groups);
         for (int k = 0; k < node->count; k++) {
             rt__set_box(node, k, &groups[k].bounds);
             if (groups[k].count == 1) {
@@ -2091,13 +2296,15 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
 
 typedef struct rt__job rt__job;
 
-/* Sample number sample for the pixels from first to last - 1; returns how many rays it
- * took. */
-typedef uint64_t rt__step(const rt__job *job, int sample, int first, int last);
+/* Trace sample number sample of the pixels from first to last - 1 into values; returns how
+ * many rays it took. */
+typedef uint64_t rt__step(const rt__job *job, int sample, int first, int last,
+                          rt_watch *watch, rt_vec3 *values);
 
 struct rt__job {
     rt__step *step;
-    int chunk; /* so many pixels a thread takes at a time */
+    int together; /* it takes so many pixels at a time */
+    int ticks;    /* it may tick so often between two looks at the clock */
     rt_image *image;
     rt_options options;
     rt_pixel_function *pixel; /* rt__step_pixels calls it with context */
@@ -2119,20 +2326,34 @@ static inline uint32_t rt__sequence(const rt__job *job, int sample, uint32_t *se
 }
 
 /* The mean of n+1 values is the mean of n plus the (n+1)th part of the difference, so the
- * image is a picture after every sample, and the order of the sums is always the same. */
-static inline void rt__add_to_mean(rt_vec3 *mean, int n, rt_vec3 value)
+ * image is a picture after every sample, and the order of the sums is always the same.
+ * *rest, unless NULL, is what rounding took from *mean, and goes back in. */
+static inline void rt__add_to_mean(rt_vec3 *mean, rt_vec3 *rest, int n, rt_vec3 value)
 {
-    if (n == 0)
+    const rt_vec3 nothing = rt_vec(0.0f, 0.0f, 0.0f);
+    if (n == 0) {
         *mean = value;
-    else
-        *mean = rt_add(*mean, rt_scale(rt_sub(value, *mean), 1.0f / (float)(n + 1)));
+        if (rest)
+            *rest = nothing;
+        return;
+    }
+    const rt_dvec3 old =
+        rt_dmad(rt_to_double(*mean), 1.0, rt_to_double(rest ? *rest : nothing));
+    const rt_dvec3 sum =
+        rt_dmad(old, 1.0 / ((double)n + 1.0), rt_dsub(rt_to_double(value), old));
+    *mean = rt_to_float(sum);
+    if (rest)
+        *rest = rt_to_float(rt_dsub(sum, rt_to_double(*mean)));
 }
 
 static inline void rt__record(rt_image *image, int sample, int i, rt_vec3 value)
 {
-    rt__add_to_mean(&image->pixels[i], sample, value);
-    if (image->half && sample % 2 == 0)
-        rt__add_to_mean(&image->half[i], sample / 2, value);
+    rt_vec3 *rest = image->rest;
+    rt__add_to_mean(&image->pixels[i], rest ? rest + i : NULL, sample, value);
+    if (!image->half || sample % 2 != 0)
+        return;
+    rest = rest ? rest + (size_t)image->width * (size_t)image->height + i : NULL;
+    rt__add_to_mean(&image->half[i], rest, sample / 2, value);
 }
 
 /* A random point of pixel number i, and the colour there. */
@@ -2154,13 +2375,15 @@ static inline rt_rng rt__start(const rt__job *job, int sample, int i)
 }
 
 static inline uint64_t rt__step_pixels(const rt__job *job, int sample, int first,
-                                       int last)
+                                       int last, rt_watch *watch, rt_vec3 *values)
 {
     uint64_t rays = 0;
     for (int i = first; i < last; i++) {
         rt_rng rng = rt__start(job, sample, i);
-        rt__record(job->image, sample, i, rt__look(job, i, &rng));
+        rng.watch = watch;
+        values[i - first] = rt__look(job, i, &rng);
         rays += rng.rays;
+        rt__tick(watch);
     }
     return rays;
 }
@@ -2172,11 +2395,12 @@ RTDEF float rt_image_error(const rt_image *image)
     const int count = image->width * image->height;
     double squares = 0.0, sum = 0.0;
     for (int i = 0; i < count; i++) {
-        const rt_vec3 mean = image->pixels[i], d = rt_sub(image->half[i], mean);
-        squares += (double)rt_dot(d, d);
-        sum += (double)mean.x + (double)mean.y + (double)mean.z;
+        const rt_dvec3 mean = rt_to_double(image->pixels[i]);
+        const rt_dvec3 d = rt_dsub(rt_to_double(image->half[i]), mean);
+        squares += rt_ddot(d, d);
+        sum += mean.x + mean.y + mean.z;
     }
-    const int even = (image->samples + 1) / 2, odd = image->samples / 2;
+    const int odd = image->samples / 2, even = image->samples - odd;
     const double noise = sqrt(squares * even / odd / (3.0 * count));
     return sum > 0.0 ? (float)(noise / (sum / (3.0 * count))) : 0.0f;
 }
@@ -2216,81 +2440,303 @@ static inline rt_status rt__check_job(const rt_image *image, const rt_options *o
     return RT_OK;
 }
 
-/* One sample for every pixel, and again. The pixels are shared out among the threads in
- * bands - a part of the picture, or several samples of a small one - so that between two
- * bands all threads rest and the caller can look at the picture. In a band each thread
- * takes the next chunk of pixels that nobody has (schedule(dynamic)): a fixed share each
- * would leave one waiting for the other. Every pixel is written by one thread, and
- * everything else that is written is declared inside the loop: that is all it takes for
- * "#pragma omp parallel for" to be right, and -fopenmp for it to be obeyed.
- *
- * A band should last 5 to 20 ms: short enough for a window to answer, long enough not to
- * waste time on waiting for the slowest thread. */
+#ifdef _OPENMP
+typedef omp_lock_t rt__lock;
+#define rt__open(lock) omp_init_lock(lock)
+#define rt__take(lock) omp_set_lock(lock)
+#define rt__give(lock) omp_unset_lock(lock)
+#define rt__close(lock) omp_destroy_lock(lock)
+#else
+typedef char rt__lock;
+#define rt__open(lock) (void)(lock)
+#define rt__take(lock) (void)(lock)
+#define rt__give(lock) (void)(lock)
+#define rt__close(lock) (void)(lock)
+#endif
+
+/* Pixels with neighbouring numbers, and some samples of each: what a thread does before it
+ * asks for more. */
+enum { RT__CHUNK = 128 };
+typedef struct rt__task {
+    int chunk;    /* which pixels */
+    int from, to; /* samples number from, from + 1 ... to - 1 */
+    bool ready;   /* all samples before are recorded */
+} rt__task;
+
+/* What the threads share. */
+typedef struct rt__crew {
+    rt_watch
+        watch; /* of the thread that called; first, so that its address is the crew's */
+    const rt__job *job;
+    int threads, chunk, chunks; /* there are so many chunks of so many pixels */
+    rt__lock *pens; /* each thread holds its own while it writes to the image */
+    double start, asked, patience; /* progress was asked then; again after so long */
+    int first_sample, first_pixel; /* what the image lacks first */
+    int end;                       /* tasks go up to this sample, not included */
+    double wanted;                 /* so many samples are to be added */
+    float part_of_error;
+
+    rt__lock desk; /* for what follows: one thread at a time */
+    rt__task last; /* the last task that was given out */
+    int *recorded; /* how many samples each chunk has in the image */
+    double since;  /* when the samples of this task were begun */
+    bool cancelled, time_over;
+} rt__crew;
+
+/* The next task, if there is one; *task was the one before it of the same thread, which took
+ * so many rays. Tasks are given out in order and all of them are finished: so the image has,
+ * when a picture is stopped, a sample more of all pixels up to some number. For that a
+ * task is one sample of its pixels; of small pictures several, so that it is not too short. */
+static inline bool rt__next_task(rt__crew *crew, rt__task *task, uint64_t rays)
+{
+    rt__task *last = &crew->last;
+    rt__take(&crew->desk);
+    crew->job->image->rays += rays;
+    if (task->to > task->from)
+        crew->recorded[task->chunk] = task->to;
+    const bool all =
+        last->chunk == crew->chunks - 1; /* those pixels have their samples */
+    const bool one = last->to - last->from == 1 || all;
+    const bool stop =
+        crew->cancelled || (crew->time_over && (last->from > 0 || (all && last->to > 0)));
+    const bool more = (!all || last->to < crew->end) && !(stop && one);
+    if (more && all) {
+        const double now = rt__seconds(), seconds = now - crew->since;
+        int samples = last->to - last->from;
+        samples = seconds < 0.0025 && samples < INT_MAX / 2 ? 2 * samples
+                  : seconds > 0.01 && samples > 1           ? samples / 2
+                                                            : samples;
+        crew->since = now;
+        last->from = last->to;
+        last->to += samples < crew->end - last->to ? samples : crew->end - last->to;
+        last->chunk = -1;
+    }
+    if (more) {
+        last->chunk++;
+        last->ready = crew->recorded[last->chunk] == last->from;
+        *task = *last;
+    }
+    rt__give(&crew->desk);
+    return more;
+}
+
+/* Are all samples recorded that come before this task? */
+static inline bool rt__is_ready(rt__crew *crew, rt__task *task)
+{
+    if (!task->ready) {
+        rt__take(&crew->desk);
+        task->ready = crew->recorded[task->chunk] == task->from;
+        rt__give(&crew->desk);
+    }
+    return task->ready;
+}
+
+/* Samples and done of the image: what all chunks have, and how many at the beginning have
+ * one more. Returns whether all tasks that were given out are recorded. */
+static inline bool rt__count_samples(rt__crew *crew)
+{
+    rt_image *image = crew->job->image;
+    rt__take(&crew->desk);
+    int least = INT_MAX, ahead = 0;
+    for (int k = 0; k < crew->chunks; k++)
+        least = crew->recorded[k] < least ? crew->recorded[k] : least;
+    while (ahead < crew->chunks && crew->recorded[ahead] > least)
+        ahead++;
+    bool all = true;
+    for (int k = 0; k < crew->chunks && all; k++)
+        all = crew->recorded[k] ==
+              (k <= crew->last.chunk ? crew->last.to : crew->last.from);
+    image->samples = least;
+    image->done = ahead * crew->chunk;
+    if (least == crew->first_sample && image->done < crew->first_pixel)
+        image->done = crew->first_pixel;
+    rt__give(&crew->desk);
+    return all;
+}
+
+/* How much is done of what rt_render was called for, 0 to 1. */
+static inline float rt__part(rt__crew *crew, double now)
+{
+    const float limit = crew->job->options.seconds;
+    rt__take(&crew->desk);
+    const rt__task *last = &crew->last;
+    const double samples =
+        last->from + (last->to - last->from) * (last->chunk + 0.5) / crew->chunks;
+    rt__give(&crew->desk);
+    const rt_image *image = crew->job->image;
+    const double begun =
+        crew->first_sample + (double)crew->first_pixel / image->width / image->height;
+    float part = (float)((samples - begun) / crew->wanted);
+    part = part > crew->part_of_error ? part : crew->part_of_error;
+    if (limit > 0.0f && (float)(now - crew->start) / limit > part)
+        part = (float)(now - crew->start) / limit;
+    return part < 0.0f ? 0.0f : part < 1.0f ? part : 1.0f;
+}
+
+/* Now and then the thread that called rt_render looks up from its work: is the time over, and
+ * is it time to ask progress? It takes the pens of all others for that. They go on tracing,
+ * and none waits for more than that one has an answer; so threads meet only at the end. */
+static inline void rt__look_up(rt_watch *watch)
+{
+    rt__crew *crew = (rt__crew *)watch;
+    const rt_options *o = &crew->job->options;
+    const double now = rt__seconds();
+    bool over = o->seconds > 0.0f && now - crew->start >= (double)o->seconds,
+         go_on = true;
+    watch->ticks = crew->job->ticks;
+    if (o->progress && now - crew->asked >= crew->patience) {
+        for (int k = 1; k < crew->threads; k++)
+            rt__take(&crew->pens[k]);
+        rt__count_samples(crew);
+        go_on = o->progress(o->user, rt__part(crew, now));
+        for (int k = 1; k < crew->threads; k++)
+            rt__give(&crew->pens[k]);
+        crew->asked = rt__seconds();
+        crew->patience = crew->patience < 0.0075 ? 2.0 * crew->patience + 0.0001 : 0.015;
+    }
+    if (over || !go_on) {
+        rt__take(&crew->desk);
+        crew->time_over = crew->time_over || over;
+        crew->cancelled = crew->cancelled || !go_on;
+        rt__give(&crew->desk);
+    }
+}
+
+/* What one thread does, from the first task to the last. */
+static inline void rt__work(rt__crew *crew, int thread)
+{
+    const rt__job *job = crew->job;
+    rt_image *image = job->image;
+    const int count = image->width * image->height;
+    const bool looks_up = job->options.progress || job->options.seconds > 0.0f;
+    rt_watch *watch = thread == 0 && looks_up ? &crew->watch : NULL;
+    rt_vec3 values[RT__CHUNK];
+    uint64_t rays = 0;
+    rt__task task;
+    task.chunk = task.from = task.to = 0;
+    while (rt__next_task(crew, &task, rays)) {
+        int first = task.chunk * crew->chunk;
+        const int last = count - first > crew->chunk ? first + crew->chunk : count;
+        if (task.from == crew->first_sample && first < crew->first_pixel)
+            first = crew->first_pixel;
+        rays = 0;
+        for (int sample = task.from; sample < task.to; sample++) {
+            rays += job->step(job, sample, first, last, watch, values);
+            while (!rt__is_ready(crew, &task))
+                rt__tick(watch);
+            rt__take(&crew->pens[thread]);
+            for (int i = first; i < last; i++)
+                rt__record(image, sample, i, values[i - first]);
+            rt__give(&crew->pens[thread]);
+        }
+        if (watch)
+            watch->look(watch);
+    }
+    if (watch)
+        while (!rt__count_samples(crew)) /* the others have not finished theirs */
+            watch->look(watch);
+}
+
+/* Give out tasks up to the sample crew->end and wait until they are done. */
+static inline void rt__work_together(rt__crew *crew)
+{
+    rt_image *image = crew->job->image;
+    crew->first_sample = image->samples;
+    crew->first_pixel = image->done;
+    crew->last.chunk = image->done / crew->chunk - 1;
+    crew->last.from = image->samples;
+    crew->last.to = image->samples + 1;
+    for (int k = 0; k < crew->chunks; k++)
+        crew->recorded[k] = image->samples + (k <= crew->last.chunk ? 1 : 0);
+#ifdef _OPENMP
+#pragma omp parallel num_threads(crew->threads)
+    rt__work(crew, omp_get_thread_num());
+#else
+    rt__work(crew, 0);
+#endif
+    rt__count_samples(crew);
+}
+
+/* Means of more samples than this in one call keep their rest. */
+enum { RT__MANY = 4096 };
+
+/* All samples. The error is looked at when their number has grown by an eighth, and is
+ * even; for that the threads have to meet. */
+static inline void rt__run_crew(rt__crew *crew, int target)
+{
+    const rt_options *o = &crew->job->options;
+    rt_image *image = crew->job->image;
+    int64_t look = (image->samples + (int64_t)17) / 2 * 2;
+    while (image->samples < target && crew->part_of_error < 1.0f && !crew->cancelled &&
+           !(crew->time_over && image->samples > 0)) {
+        crew->end = o->error > 0.0f && look < target ? (int)look : target;
+        rt__work_together(crew);
+        if (o->error > 0.0f && image->done == 0 && image->samples == look) {
+            const float error = rt_image_error(image), part = o->error / error;
+            crew->part_of_error = error <= o->error ? 1.0f : part * part;
+            look += 2 * (look / 16 + 1);
+        }
+    }
+}
+
 static inline rt_status rt__run(const rt__job *job)
 {
     const rt_options *o = &job->options;
     rt_image *image = job->image;
-    const int count = image->width * image->height, chunk = job->chunk;
-    const int threads = rt_thread_count(o->threads);
+    const int count = image->width * image->height;
+    const size_t vectors = (size_t)count * (image->half ? 2 : 1);
     int samples = o->samples;
     if (samples == 0)
         samples = o->error > 0.0f || o->seconds > 0.0f ? INT_MAX - image->samples : 16;
     const int target = image->samples + samples;
-    const double begun = image->samples + (double)image->done / count;
-    const double started = rt__seconds();
-    int band = 32 * chunk * threads, look = (image->samples + 17) / 2 * 2;
-    float part_of_error = 0.0f;
-    for (;;) {
-        const int first = image->done;
-        const int last = count - first > band ? first + band : count;
-        const double start = rt__seconds();
-        uint64_t rays = 0;
-        const int more = first == 0 && band > count ? band / count : 1;
-        int end = more < target - image->samples ? image->samples + more : target;
-        if (o->error > 0.0f && end > look)
-            end = look;
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(+ : rays)
-#endif
-        for (int i = first; i < last; i += chunk)
-            for (int sample = image->samples; sample < end; sample++)
-                rays += job->step(job, sample, i, last - i > chunk ? i + chunk : last);
-        const double now = rt__seconds();
-        if (now - start < 0.005)
-            band = band > INT_MAX / 2 ? INT_MAX : 2 * band;
-        else if (now - start > 0.02 && band > 64)
-            band = band / 2;
 
-        image->rays += rays;
-        image->done = last;
-        if (last == count) {
-            image->done = 0;
-            image->samples = end;
-        }
-        /* The error: when the number of samples has grown by an eighth, and is even. */
-        if (o->error > 0.0f && image->done == 0 && image->samples == look) {
-            const float error = rt_image_error(image);
-            if (error <= o->error)
-                part_of_error = 1.0f;
-            else
-                part_of_error = o->error / error * (o->error / error);
-            look = image->samples + 2 * (image->samples / 16 + 1);
-        }
-        const bool time_over = o->seconds > 0.0f && image->samples > 0 &&
-                               now - started >= (double)o->seconds;
-        if (image->samples == target || part_of_error == 1.0f || time_over) {
-            if (o->progress)
-                o->progress(o->user, 1.0f);
-            return RT_OK;
-        }
-        const double sampled = image->samples + (double)image->done / count - begun;
-        float part = (float)(sampled / samples);
-        part = part > part_of_error ? part : part_of_error;
-        if (o->seconds > 0.0f && (float)(now - started) / o->seconds > part)
-            part = (float)(now - started) / o->seconds;
-        if (o->progress && !o->progress(o->user, part < 1.0f ? part : 1.0f))
-            return RT_CANCELLED;
+    rt__crew crew;
+    memset(&crew, 0, sizeof crew);
+    crew.watch.look = rt__look_up;
+    crew.watch.ticks = job->ticks;
+    crew.job = job;
+    crew.threads = rt_thread_count(o->threads);
+    crew.wanted = samples;
+    crew.start = crew.since = rt__seconds();
+    /* a chunk has a thousand rays or so, and there are some for each thread, if possible */
+    const int pixels = 1024 / (o->bounces < 1024 ? o->bounces + 1 : 1024);
+    const int shared = count / (4 * crew.threads),
+              fewer = shared < pixels ? shared : pixels;
+    const int packets = (fewer < RT__CHUNK ? fewer : RT__CHUNK) / job->together;
+    crew.chunk = job->together * (packets > 0 ? packets : 1);
+    crew.chunks = (count - 1) / crew.chunk + 1;
+    crew.threads = crew.chunks < crew.threads ? crew.chunks : crew.threads;
+
+    crew.recorded = (int *)RT_MALLOC((size_t)crew.chunks * sizeof *crew.recorded);
+    crew.pens = (rt__lock *)RT_MALLOC((size_t)crew.threads * sizeof *crew.pens);
+    const bool borrow = !image->rest && o->samples > RT__MANY;
+    if (borrow)
+        image->rest = (rt_vec3 *)RT_MALLOC(vectors * sizeof *image->rest);
+    const bool good = crew.recorded && crew.pens && (image->rest || !borrow);
+    if (good) {
+        if (borrow)
+            memset(image->rest, 0, vectors * sizeof *image->rest);
+        rt__open(&crew.desk);
+        for (int k = 0; k < crew.threads; k++)
+            rt__open(&crew.pens[k]);
+        rt__run_crew(&crew, target);
+        for (int k = 0; k < crew.threads; k++)
+            rt__close(&crew.pens[k]);
+        rt__close(&crew.desk);
     }
+    RT_FREE(crew.recorded);
+    RT_FREE(crew.pens);
+    if (borrow) {
+        RT_FREE(image->rest);
+        image->rest = NULL;
+    }
+    if (!good)
+        return RT_NO_MEMORY;
+    if (image->samples < target && crew.cancelled && crew.part_of_error < 1.0f)
+        return RT_CANCELLED;
+    if (o->progress)
+        o->progress(o->user, 1.0f);
+    return RT_OK;
 }
 
 RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
@@ -2306,7 +2752,7 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
     if (status != RT_OK)
         return status;
     job.step = rt__step_pixels;
-    job.chunk = 32;
+    job.together = job.ticks = 1;
     job.image = image;
     job.pixel = pixel;
     job.context = context;
@@ -2403,7 +2849,8 @@ static inline rt_status rt__set_job(rt__job *job, const rt_scene *scene,
     job->camera = camera;
     job->film = rt__film_of(camera, image->width, image->height);
     job->step = rt__step_pixels;
-    job->chunk = 32;
+    job->together = 1;
+    job->ticks = 16; /* rays through a tree may take a millisecond each */
     job->pixel = rt__pixel;
     job->context = job;
     return rt__check_job(image, &job->options);
@@ -2431,6 +2878,7 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
     watched.bvh = &watch;
     job.scene = &watched;
     path->scene = scene;
+    path->bounces = job.options.bounces;
     path->vertex_count = path->shadow_count = 0;
     rt_rng rng = rt__start(&job, sample, y * image->width + x);
     path->value = rt__look(&job, y * image->width + x, &rng);
@@ -2466,13 +2914,18 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #ifdef RT__PACKETS
     if (lanes > 1) {
         job.step = rt__step_packets4;
-        job.chunk = 128;
+        job.together = 4;
 #ifdef RT__X86
-        if (lanes >= 8)
+        if (lanes >= 8) {
             job.step = rt__step_packets8;
-        if (lanes == 16 && !job.by_tree) /* its nodes have eight boxes */
+            job.together = 8;
+        }
+        if (lanes == 16 && !job.by_tree) { /* its nodes have eight boxes */
             job.step = rt__step_packets16;
+            job.together = 16;
+        }
 #endif
+        job.ticks = job.by_tree ? 1 : 64;
     }
 #endif
     status = rt__run(&job);
@@ -2529,7 +2982,9 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define rt__add RT__NAME(rt__add, RT__LANES)
 #define rt__aim RT__NAME(rt__aim, RT__LANES)
 #define rt__all RT__NAME(rt__all, RT__LANES)
+#define rt__back_lanes RT__NAME(rt__back_lanes, RT__LANES)
 #define rt__backwards RT__NAME(rt__backwards, RT__LANES)
+#define rt__all_of RT__NAME(rt__all_of, RT__LANES)
 #define rt__bits RT__NAME(rt__bits, RT__LANES)
 #define rt__blocked RT__NAME(rt__blocked, RT__LANES)
 #define rt__blocked_in_tree RT__NAME(rt__blocked_in_tree, RT__LANES)
@@ -2931,6 +3386,16 @@ RT__INLINE rt__d3 rt__dmad(rt__d3 a, rt__d k, rt__d3 b)
     return a;
 }
 
+RT__INLINE rt__d3 rt__all_of(rt_dvec3 v)
+{
+    const rt__d zero = {0.0};
+    rt__d3 all;
+    all.x = v.x - zero;
+    all.y = v.y - zero;
+    all.z = v.z - zero;
+    return all;
+}
+
 RT__INLINE void rt__vhalves(rt__f3 v, rt__d3 *two)
 {
     rt__d x[2], y[2], z[2];
@@ -3114,8 +3579,10 @@ static inline void rt__set_lane(rt__hits *hits, int lane, const rt_hit *hit)
 #if RT__LANES <= 8
 /* rt__enter: now the lanes are the boxes of the node. */
 RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
-                                    rt_vec3 inverse, float t_max, float *t)
+                                    const rt_dvec3 *exact, float t_max, float *t)
 {
+    const rt_vec3 inverse =
+        rt_vec(rt__moderate(exact->x), rt__moderate(exact->y), rt__moderate(exact->z));
     unsigned result = 0;
     for (int k = 0; k < 8; k += RT__LANES) {
         rt__f3 min, max;
@@ -3184,8 +3651,9 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, float low, float high, rt
 {
     const rt__m none = {0}, here = none + axis;
     const rt__m parallel = u == 0.0f, up = u > 0.0f;
-    const rt__f t_low = (low - o) / u, t_high = (high - o) / u;
     const rt__f all = rt__splat(FLT_MAX);
+    const rt__f t_low = rt__fmax(rt__fmin((low - o) / u, all), -all);
+    const rt__f t_high = rt__fmax(rt__fmin((high - o) / u, all), -all);
     const rt__f t_in = rt__select(parallel, -all, rt__select(up, t_low, t_high));
     const rt__f t_out = rt__select(parallel, all, rt__select(up, t_high, t_low));
     const rt__m later = t_in > cuts->t_in, sooner = t_out < cuts->t_out;
@@ -3195,6 +3663,15 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, float low, float high, rt
     cuts->axis_out = (here & sooner) | (cuts->axis_out & ~sooner);
     cuts->miss |= (parallel & ~((o >= low) & (o <= high))) | ~(t_in <= t_out) |
                   ~(cuts->t_in <= cuts->t_out);
+}
+
+/* rt__back. */
+RT__INLINE rt__f rt__back_lanes(rt__f p, rt__f origin)
+{
+    const rt__f step = rt__fmax(rt__fabs(p), rt__fabs(origin)) * (8.0f * FLT_EPSILON);
+    const rt__m up = p > origin;
+    const rt__f back = rt__select(up, p - step, p + step);
+    return rt__select((back > origin) ^ up, origin, back);
 }
 
 /* One coordinate of normal and point, if the ray comes or goes through a plane of this
@@ -3228,7 +3705,9 @@ RT__INLINE rt__m rt__finish_box(const rt__rays *r, rt__m lanes, const rt__shape 
     const rt__f t = rt__select(inside, cuts.t_out, cuts.t_in);
     const rt__m axis = (cuts.axis_out & inside) | (cuts.axis_in & ~inside);
     const rt__m good = lanes & ~cuts.miss & (t > 0.0f) & (t < others);
-    rt__f3 normal, point = rt__add(o, rt__scale(u, t));
+    const rt__f3 p = rt__add(o, rt__scale(u, t));
+    rt__f3 normal, point = rt__vec(rt__back_lanes(p.x, o.x), rt__back_lanes(p.y, o.y),
+                                   rt__back_lanes(p.z, o.z));
     rt__face(axis == 0, inside, u.x, min.x, max.x, &normal.x, &point.x);
     rt__face(axis == 1, inside, u.y, min.y, max.y, &normal.y, &point.y);
     rt__face(axis == 2, inside, u.z, min.z, max.z, &normal.z, &point.z);
@@ -3260,18 +3739,18 @@ RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes
     rt__halves(field[3], radius);
     for (int h = 0; h < 2; h++) {
         const rt__d3 f = rt__dsub(o[h], center[h]);
-        const rt__d a = rt__ddot(u[h], u[h]), b = rt__ddot(f, u[h]);
-        const rt__d c = rt__ddot(f, f) - radius[h] * radius[h];
-        const rt__d root = rt__dsqrt(b * b - a * c), first = -b - root;
-        ts[h] = rt__dselect(first > nought, first, -b + root) / a;
-        const rt__d3 m = rt__dmad(f, ts[h], u[h]);
-        const rt__d k = 1.0 / rt__dsqrt(rt__ddot(m, m));
-        const rt__d3 normal = rt__dscale(m, k);
-        points[h] = rt__dmad(center[h], radius[h], normal);
-        const rt__d away = rt__ddot(normal, u[h]);
+        const rt__d a = rt__ddot(u[h], u[h]), t0 = -rt__ddot(f, u[h]) / a;
+        const rt__d3 l = rt__dmad(f, t0, u[h]);
+        const rt__d root = rt__dsqrt((radius[h] * radius[h] - rt__ddot(l, l)) / a);
+        const rt__d half =
+            rt__dselect(t0 - root >= nought + (double)FLT_MIN, -root, root);
+        ts[h] = t0 + half;
+        rt__d3 n3 = rt__dscale(rt__dmad(l, half, u[h]), 1.0 / radius[h]);
+        n3 = rt__dscale(n3, 1.5 - 0.5 * rt__ddot(n3, n3));
+        points[h] = rt__dmad(center[h], radius[h], n3);
+        aways[h] = rt__ddot(n3, u[h]);
         normals[h] =
-            rt__dscale(normal, rt__dselect(away > nought, nought - 1.0, nought + 1.0));
-        aways[h] = away;
+            rt__dscale(n3, rt__dselect(aways[h] > nought, nought - 1.0, nought + 1.0));
     }
     const rt__f t = rt__join(ts), kind = field[7];
     const rt__m within = rt__join(aways) > 0.0f;
@@ -3306,7 +3785,8 @@ RT__INLINE void rt__find(const rt_scene *scene, const rt__rays *r, rt__m lanes,
     const rt__shape *shape = bvh->shapes, *const boxes = shape + bvh->sphere_count,
                     *const end = boxes + bvh->box_count;
     const rt__f less_over_a = -1.0f / r->a;
-    const rt__f slack = rt__fsqrt(-less_over_a) * (0x1p-20f / RT__DOUBT);
+    const rt__f slack =
+        rt__fsqrt(-less_over_a) * (9.5367431640625e-7f / RT__DOUBT /* 2^-20 */);
     const rt__m parallel = rt__parallel(r->direction);
     rt__m at = lanes & ~lanes;
     rt__nearest n;
@@ -3549,7 +4029,7 @@ RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
 /* rt_radiance: *rays counts the rays of each lane. A lane whose path has ended stays
  * until the last one ends. */
 RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
-                           rt__numbers *numbers, rt__m *rays)
+                           rt__numbers *numbers, rt__m *rays, rt_watch *watch)
 {
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
@@ -3559,6 +4039,7 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
         rt__f r1, r2;
         rt__draw(numbers, &r1, &r2); /* early: while the core waits for roots */
         *rays -= lanes;
+        rt__tick(watch);
         if (job->by_tree)
             rt__find_in_tree(scene, r, lanes, &hits);
         else
@@ -3584,7 +4065,16 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
         const rt__m lossless =
             hits.mirror & (rho.x == 0.0f) & (rho.y == 0.0f) & (rho.z == 0.0f);
         throughput = rt__vselect(lossless, throughput, rt__mul(throughput, rho));
-        lanes &= (throughput.x != 0.0f) | (throughput.y != 0.0f) | (throughput.z != 0.0f);
+        lanes &= (throughput.x >= FLT_MIN) | (throughput.y >= FLT_MIN) |
+                 (throughput.z >= FLT_MIN);
+        if (job->options.bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
+            rt__f chance = rt__fmax(throughput.x, rt__fmax(throughput.y, throughput.z));
+            chance = rt__fmin(chance, rt__splat(0.95f));
+            rt__draw(numbers, &r1, &r2);
+            numbers->dimension += (rt__u)lanes & 2u;
+            lanes &= r1 < chance;
+            throughput = rt__scale(throughput, 1.0f / chance);
+        }
         if (rt__bits(lanes) == 0)
             return sum;
         rt__depart(r, &hits, rt__leave(hits.point, n, direction), direction);
@@ -3592,7 +4082,8 @@ RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
 }
 
 /* rt__step_pixels with rt__pixel. */
-static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int last)
+static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int last,
+                                 rt_watch *watch, rt_vec3 *values)
 {
     const int width = job->image->width;
     const rt__film *film = &job->film;
@@ -3602,15 +4093,17 @@ static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int 
     const rt__u none = {0};
     const rt__m nowhere = ~(rt__m)none;
     rt__m rays = {0};
-    for (int i = first; i < last; i += RT__LANES) {
+    for (int done = 0; done < last - first; done += RT__LANES) {
         float xs[RT__LANES], ys[RT__LANES];
         uint32_t pixels[RT__LANES];
         int32_t inside[RT__LANES];
+        const int left = last - first - done;
         for (int lane = 0; lane < RT__LANES; lane++) {
-            pixels[lane] = (uint32_t)(i + lane);
-            inside[lane] = i + lane < last ? -1 : 0;
-            xs[lane] = (float)((i + lane) % width);
-            ys[lane] = (float)((i + lane) / width);
+            const int i = first + done + (lane < left ? lane : 0);
+            pixels[lane] = (uint32_t)i;
+            inside[lane] = lane < left ? -1 : 0;
+            xs[lane] = (float)(i % width);
+            ys[lane] = (float)(i / width);
         }
         rt__f x, y, dx, dy;
         rt__u pixel;
@@ -3631,22 +4124,23 @@ static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int 
         y = y + dy;
 
         rt__rays r; /* rt__film_ray */
-        const rt__f to_right = film->size * (x - film->half_width);
-        const rt__f to_top = film->size * (film->half_height - y);
-        const rt__f3 toward = rt__add(rt__all(film->forward),
-                                      rt__add(rt__scale(rt__all(film->right), to_right),
-                                              rt__scale(rt__all(film->top), to_top)));
+        rt__d xd[2], yd[2];
         rt__d3 d[2];
-        rt__vhalves(toward, d);
+        rt__halves(x, xd);
+        rt__halves(y, yd);
         for (int h = 0; h < 2; h++) {
+            const rt__d to_right = film->size * (xd[h] - film->half_width);
+            const rt__d to_top = film->size * (film->half_height - yd[h]);
+            d[h] = rt__dmad(
+                rt__dmad(rt__all_of(film->forward), to_right, rt__all_of(film->right)),
+                to_top, rt__all_of(film->top));
             const rt__d length = rt__dsqrt(rt__ddot(d[h], d[h]));
             d[h] = rt__dscale(d[h], 1.0 / length);
         }
         rt__aim(&r, rt__all(film->position), rt__vjoin(d), nowhere, nowhere);
-        const rt__f3 value = rt__path(job, &r, lanes, &numbers, &rays);
-        for (int lane = 0; lane < RT__LANES && i + lane < last; lane++)
-            rt__record(job->image, sample, i + lane,
-                       rt_vec(value.x[lane], value.y[lane], value.z[lane]));
+        const rt__f3 value = rt__path(job, &r, lanes, &numbers, &rays, watch);
+        for (int lane = 0; lane < RT__LANES && lane < left; lane++)
+            values[done + lane] = rt_vec(value.x[lane], value.y[lane], value.z[lane]);
     }
     uint64_t sum = 0;
     for (int lane = 0; lane < RT__LANES; lane++)
@@ -3670,7 +4164,9 @@ static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int 
 #undef rt__add
 #undef rt__aim
 #undef rt__all
+#undef rt__back_lanes
 #undef rt__backwards
+#undef rt__all_of
 #undef rt__bits
 #undef rt__blocked
 #undef rt__blocked_in_tree
