@@ -535,50 +535,50 @@ typedef struct rt_hit {
     int shape; /* its number in the scene: spheres first, then boxes; 0 from rt_hit_... */
 } rt_hit;
 
-/* The smallest t with 0 < t < t_max for which the ray meets the sphere, or 0; *m is then P
- * - O, from the centre to that point.
+/* The smallest t with 0 < t < t_max for which the ray meets the sphere, or 0.
  *
  * P = C + t u lies on the sphere when |P - O|^2 = R^2. With f = C - O that is
  *
- *     t^2 <u,u> + 2 t <f,u> + <f,f> - R^2 = 0,
+ *     t^2 <u,u> + 2 t <f,u> + <f,f> - R^2 = 0,     a t^2 + 2 b t + c = 0,
  *
- * a quadratic equation. Its roots lie on both sides of their mean t0 = -<f,u> / <u,u>,
- * where the ray is nearest to the centre, l = f + t0 u away from it. There u is
- * perpendicular to l, so half of the way through the sphere is, by Pythagoras,
+ * whose roots are t = (-b -+ sqrt(b^2 - a c)) / a. No real root: the ray passes by. Both
+ * are negative where we are outside (c > 0) and going away (b > 0): the sphere is behind
+ * us. Else the smaller root is the way in; if it is negative, too, we are inside, and the
+ * larger one is the way out.
  *
- *     h = sqrt((R^2 - <l,l>) / <u,u>),     and     t = t0 -+ h.
- *
- * If l is longer than R, the ray passes by. Else the smaller root is the way in; if it is
- * negative, we are inside, and the larger one is the way out; if that is negative, too,
- * the sphere is behind us.
- *
- * In double, because a wall of radius 1e5 needs digits that a float has not. And by l,
- * because the discriminant of the textbook, b^2 - a c, is a small difference of large
- * numbers where a sphere is small and far away: with l it is found from 1e12 radii away
- * (E. Haines et al., "Precision improvements for ray/sphere intersection", Ray Tracing
- * Gems, 2019). All comparisons are so written that NaN is a miss. */
+ * The formula is the textbook's, but in double: for a wall of radius 1e5, c is a small
+ * difference of two numbers near 1e10, of which a float keeps seven digits: none is left.
+ * Where the sphere is tiny and far away, b^2 - a c is such a difference, and double does
+ * not help either. But the same number is a (R^2 - |l|^2), with l the way from the centre
+ * to the nearest point of the ray, l = f - (b/a) u. That subtracts vectors, each component
+ * for itself, and finds a sphere from 1e12 radii away (E. Haines et al., "Precision
+ * improvements for ray/sphere intersection", Ray Tracing Gems, 2019).
+ * All comparisons are so written that NaN is a miss. */
 #ifndef rt_hit_sphere
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
-                                     float t_max, rt_dvec3 *m)
+                                     float t_max)
 {
     const rt_dvec3 u = rt_to_double(ray->direction);
     const rt_dvec3 f = rt_dsub(rt_to_double(ray->origin), rt_to_double(sphere->center));
     const double radius = (double)sphere->radius;
 
     const double a = rt_ddot(u, u);
-    if (!(a > 0.0 && radius > 0.0))
+    const double b = rt_ddot(f, u);
+    const double c = rt_ddot(f, f) - radius * radius;
+    double discriminant = b * b - a * c;
+    if (!(a > 0.0 && radius > 0.0) || (c > 0.0 && b >= 0.0))
         return 0.0;
-    const double t0 = -rt_ddot(f, u) / a;
-    const rt_dvec3 l = rt_dmad(f, t0, u);
-    const double inside = radius * radius - rt_ddot(l, l);
-    if (!(inside >= 0.0))
+    if (fabs(discriminant) < 1e-10 * (b * b)) { /* few digits are left of it */
+        const rt_dvec3 l = rt_dmad(f, -b / a, u);
+        discriminant = a * (radius * radius - rt_ddot(l, l));
+    }
+    if (!(discriminant >= 0.0))
         return 0.0;
 
-    double h = -sqrt(inside / a);
-    if (!(t0 + h >= (double)FLT_MIN)) /* a t so small counts as 0 */
-        h = -h;
-    const double t = t0 + h;
-    *m = rt_dmad(l, h, u);
+    const double root = sqrt(discriminant);
+    double t = (-b - root) / a;
+    if (!(t >= (double)FLT_MIN)) /* a t so small counts as 0 */
+        t = (-b + root) / a;
     return t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max ? t : 0.0;
 }
 
@@ -587,22 +587,26 @@ static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
  * Returns false, and leaves *hit alone, on a miss; NaN or infinity anywhere, a direction
  * of length 0 and a radius that is not positive are misses.
  *
- * In double again. m / R has length 1 but for what rounding did to a ray from far away, and
- * one step of Newton's method for 1/|n| mends that; then P is put back onto the sphere, O +
- * R n, so that its error does not grow with t. */
+ * In double again; P is put back onto the sphere, O + R N, so that its error does not
+ * grow with t. */
 static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
                                  rt_hit *hit)
 {
-    rt_dvec3 m;
-    const double t = rt__meet_sphere(sphere, ray, t_max, &m);
+    const double t = rt__meet_sphere(sphere, ray, t_max);
     if (!(t > 0.0))
         return false;
     const rt_dvec3 u = rt_to_double(ray->direction);
-    const double radius = (double)sphere->radius;
-    rt_dvec3 n = rt_dscale(m, 1.0 / radius);
-    n = rt_dscale(n, 1.5 - 0.5 * rt_ddot(n, n));
+    const rt_dvec3 center = rt_to_double(sphere->center);
+    const rt_dvec3 f = rt_dsub(rt_to_double(ray->origin), center);
+    /* P - O is R long but for rounding, and one step of Newton's method makes the length of
+     * n precisely 1, unless the sphere is very far away */
+    rt_dvec3 n = rt_dscale(rt_dmad(f, t, u), 1.0 / (double)sphere->radius);
+    const double nn = rt_ddot(n, n);
+    if (!(nn > 0.0))
+        return false; /* so small and so far away that no direction is left */
+    n = rt_dscale(n, fabs(nn - 1.0) < 1e-4 ? 1.5 - 0.5 * nn : 1.0 / sqrt(nn));
     hit->t = (float)t;
-    hit->point = rt_to_float(rt_dmad(rt_to_double(sphere->center), radius, n));
+    hit->point = rt_to_float(rt_dmad(center, (double)sphere->radius, n));
     hit->normal = rt_to_float(rt_dscale(n, rt_ddot(n, u) > 0.0 ? -1.0 : 1.0));
     hit->material = &sphere->material;
     hit->shape = 0;
@@ -610,10 +614,9 @@ static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, flo
 }
 #else /* by yours */
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
-                                     float t_max, rt_dvec3 *m)
+                                     float t_max)
 {
     rt_hit hit;
-    *m = rt_dvec(0.0, 0.0, 0.0); /* nobody asks */
     return rt_hit_sphere(sphere, ray, t_max, &hit) ? (double)hit.t : 0.0;
 }
 #endif
@@ -678,9 +681,8 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
         return rt__intersect_bvh(scene, ray, hit); /* the same answer, sooner */
     int nearest = -1;
     float t_max = FLT_MAX;
-    rt_dvec3 m;
     for (int i = 0; i < scene->sphere_count; i++) {
-        const float t = (float)rt__meet_sphere(&scene->spheres[i], ray, t_max, &m);
+        const float t = (float)rt__meet_sphere(&scene->spheres[i], ray, t_max);
         if (t > 0.0f) {
             t_max = t;
             nearest = i;
@@ -895,9 +897,8 @@ static inline bool rt_occluded(const rt_scene *scene, const rt_ray *ray, float t
 {
     if (scene->bvh)
         return rt__occluded_bvh(scene, ray, t_max);
-    rt_dvec3 m;
     for (int i = 0; i < scene->sphere_count; i++)
-        if (rt__meet_sphere(&scene->spheres[i], ray, t_max, &m) > 0.0)
+        if (rt__meet_sphere(&scene->spheres[i], ray, t_max) > 0.0)
             return true;
     for (int i = 0; i < scene->box_count; i++)
         if (rt__meet_box(&scene->boxes[i], ray, t_max) > 0.0f)
@@ -1279,9 +1280,8 @@ static inline int rt__lowest(unsigned bits)
 static inline float rt__meet_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                    float t_max)
 {
-    rt_dvec3 m;
     return number < scene->sphere_count
-               ? (float)rt__meet_sphere(&scene->spheres[number], ray, t_max, &m)
+               ? (float)rt__meet_sphere(&scene->spheres[number], ray, t_max)
                : rt__meet_box(&scene->boxes[number - scene->sphere_count], ray, t_max);
 }
 
@@ -3732,21 +3732,22 @@ RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes
     memcpy(places, &n->at, sizeof places);
     rt__gather(scene->bvh->shapes, places, field);
     rt__d3 o[2], u[2], center[2], points[2], normals[2];
-    rt__d radius[2], ts[2], aways[2];
+    rt__d radius[2], ts[2], aways[2], few[2];
     rt__vhalves(r->origin, o);
     rt__vhalves(r->direction, u);
     rt__vhalves(rt__vec(field[0], field[1], field[2]), center);
     rt__halves(field[3], radius);
     for (int h = 0; h < 2; h++) {
         const rt__d3 f = rt__dsub(o[h], center[h]);
-        const rt__d a = rt__ddot(u[h], u[h]), t0 = -rt__ddot(f, u[h]) / a;
-        const rt__d3 l = rt__dmad(f, t0, u[h]);
-        const rt__d root = rt__dsqrt((radius[h] * radius[h] - rt__ddot(l, l)) / a);
-        const rt__d half =
-            rt__dselect(t0 - root >= nought + (double)FLT_MIN, -root, root);
-        ts[h] = t0 + half;
-        rt__d3 n3 = rt__dscale(rt__dmad(l, half, u[h]), 1.0 / radius[h]);
-        n3 = rt__dscale(n3, 1.5 - 0.5 * rt__ddot(n3, n3));
+        const rt__d a = rt__ddot(u[h], u[h]), b = rt__ddot(f, u[h]);
+        const rt__d c = rt__ddot(f, f) - radius[h] * radius[h];
+        const rt__d discriminant = b * b - a * c;
+        const rt__d root = rt__dsqrt(discriminant), first = -b - root;
+        ts[h] = rt__dselect(first > nought, first, -b + root) / a;
+        few[h] = discriminant - 1e-10 * (b * b);
+        const rt__d3 m = rt__dscale(rt__dmad(f, ts[h], u[h]), 1.0 / radius[h]);
+        const rt__d nn = rt__ddot(m, m);
+        const rt__d3 n3 = rt__dscale(m, 1.5 - 0.5 * nn);
         points[h] = rt__dmad(center[h], radius[h], n3);
         aways[h] = rt__ddot(n3, u[h]);
         normals[h] =
@@ -3762,8 +3763,8 @@ RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes
     hits->normal = rt__vjoin(normals);
     hits->albedo = rt__vec(field[4], field[5], field[6]);
     /* a sphere, surely the nearest, by the root that chapter 1 takes, not too small */
-    rt__m ask = lanes & ~(none | ((kind < 2.0f) & (t > 1e-30f) & (t < n->others) &
-                                  (hits->normal.x == hits->normal.x)));
+    rt__m ask = lanes & ~(none | ((kind < 2.0f) & (t > 1e-30f) & (rt__join(few) > 0.0f) &
+                                  (t < n->others) & (hits->normal.x == hits->normal.x)));
     if (rt__bits(ask) == 0)
         return;
     const rt__shape *box = scene->bvh->shapes + scene->sphere_count;
