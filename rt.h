@@ -465,6 +465,8 @@ static inline rt__film rt__film_of(const rt_camera *camera, int width, int heigh
     if (!(fov_y > 0.0f && fov_y < 180.0f && width > 0 && height > 0))
         return film;
     film.forward = rt_dnormalize(direction);
+    if (rt_ddot(film.forward, film.forward) == 0.0)
+        return film;
     /* the product of two floats is exact in double: right is right, however small it is */
     film.right = rt_dnormalize(rt_dcross(direction, up));
     if (rt_ddot(film.right, film.right) == 0.0) {
@@ -654,19 +656,8 @@ typedef struct rt_scene {
 
 static inline float rt__meet_box(const rt_box *box, const rt_ray *ray,
                                  float t_max); /* chapter 3 */
-
-/* The whole hit of the shape with this number. */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
-                                 rt_hit *hit)
-{
-    const int box = number - scene->sphere_count;
-    const bool found = box < 0 ? rt_hit_sphere(&scene->spheres[number], ray, FLT_MAX, hit)
-                               : rt_hit_box(&scene->boxes[box], ray, FLT_MAX, hit);
-    if (found)
-        hit->shape = number;
-    return found;
-}
-
+                                 rt_hit *hit); /* at its end */
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit); /* chapter 8 */
 
@@ -787,20 +778,6 @@ static inline float rt__cut_box(const rt_box *box, const rt_ray *ray, float t_ma
     return t > 0.0f && t < t_max && t < FLT_MAX ? t : 0.0f; /* FLT_MAX: no plane */
 }
 
-/* A coordinate of P, a little back toward that of the ray's origin C, but not beyond it.
- *
- * P = C + t u is rounded, and next to an edge it may come to lie on the far side of the
- * wall beside, from where a path would leave a closed room. Both t are wrong by two
- * roundings at most, and P by two more: 8 eps max(|P|, |C|) is more than all of them
- * together. So what was between two walls before stays strictly between them. */
-static inline float rt__back(float p, float origin)
-{
-    const float size = fabsf(p) > fabsf(origin) ? fabsf(p) : fabsf(origin);
-    const float step = 8.0f * FLT_EPSILON * size;
-    const float back = p > origin ? p - step : p + step;
-    return (back > origin) == (p > origin) ? back : origin;
-}
-
 /* The first point of the box's surface on the ray with 0 < t < t_max.
  *
  * The normal is that of the plane through which the ray comes or, from inside, goes; on
@@ -824,9 +801,8 @@ static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
         return false;
     const bool inside = !(slabs.t_in > 0.0f);
 
-    const rt_vec3 p = rt_at(ray, t), o = ray->origin;
     hit->t = t;
-    hit->point = rt_vec(rt__back(p.x, o.x), rt__back(p.y, o.y), rt__back(p.z, o.z));
+    hit->point = rt_at(ray, t);
     hit->normal = rt_vec(0.0f, 0.0f, 0.0f);
     hit->material = &box->material;
     hit->shape = 0;
@@ -860,6 +836,39 @@ static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_m
     return rt_hit_box(box, ray, t_max, &hit) ? hit.t : 0.0f;
 }
 #endif
+
+/* A coordinate of P, pulled back a little toward that of the ray's origin C, but not
+ * beyond it.
+ *
+ * P = C + t u is rounded. Next to an edge it may come to lie on the far side of the wall
+ * beside, and from there a path leaves a closed room. Both walls' t are wrong by two
+ * roundings at most, and P by two more: 8 eps max(|P|, |C|) is more than all of them
+ * together. So what was strictly between two walls stays strictly between them. */
+static inline float rt__pull(float p, float origin)
+{
+    const float size = fabsf(p) > fabsf(origin) ? fabsf(p) : fabsf(origin);
+    const float step = 8.0f * FLT_EPSILON * size;
+    const float pulled = p > origin ? p - step : p + step;
+    return (pulled > origin) == (p > origin) ? pulled : origin;
+}
+
+/* The hit of the shape with this number. Of a box, P is pulled back along the face. */
+static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
+                                 rt_hit *hit)
+{
+    const int box = number - scene->sphere_count;
+    if (!(box < 0 ? rt_hit_sphere(&scene->spheres[number], ray, FLT_MAX, hit)
+                  : rt_hit_box(&scene->boxes[box], ray, FLT_MAX, hit)))
+        return false;
+    hit->shape = number;
+    if (box >= 0) {
+        const rt_vec3 p = hit->point, n = hit->normal, o = ray->origin;
+        hit->point = rt_vec(n.x == 0.0f ? rt__pull(p.x, o.x) : p.x,
+                            n.y == 0.0f ? rt__pull(p.y, o.y) : p.y,
+                            n.z == 0.0f ? rt__pull(p.z, o.z) : p.z);
+    }
+    return true;
+}
 
 /* ====================================================================================
  * Chapter 4. Light and shadow
@@ -1853,7 +1862,7 @@ RTDEF const char *rt_status_text(rt_status status)
                "rt_check_scene tells which light";
     case RT_BAD_BACKGROUND: return "background: make it 0 to 1e15 in red, green and blue";
     }
-    return "unknown status: not one that rt.h returns";
+    return "unknown status";
 }
 
 /* All three components in [low, high]; NaN is not. */
@@ -1938,10 +1947,12 @@ RTDEF int rt_thread_count(int wanted)
 #ifdef __SSE2_MATH__
 #define RT__PACKETS
 #define RT__X86
+#include <fenv.h>
 #include <immintrin.h>
 #elif defined(__aarch64__) && defined(__ARM_NEON)
 #define RT__PACKETS
 #include <arm_neon.h>
+#include <fenv.h>
 #endif
 #endif
 
@@ -2602,9 +2613,16 @@ static inline void rt__look_up(rt_watch *watch)
     }
 }
 
-/* What one thread does, from the first task to the last. */
+/* What one thread does, from the first task to the last. Packets compute what some of their
+ * lanes do not need, and divide by zero there: a program that traps such things, to find
+ * its own, does not stop for them, and does not see their flags. */
 static inline void rt__work(rt__crew *crew, int thread)
 {
+#ifdef RT__PACKETS
+    fenv_t environment;
+    if (crew->job->together > 1)
+        feholdexcept(&environment);
+#endif
     const rt__job *job = crew->job;
     rt_image *image = job->image;
     const int count = image->width * image->height;
@@ -2635,6 +2653,10 @@ static inline void rt__work(rt__crew *crew, int thread)
     if (watch)
         while (!rt__count_samples(crew)) /* the others have not finished theirs */
             watch->look(watch);
+#ifdef RT__PACKETS
+    if (crew->job->together > 1)
+        fesetenv(&environment);
+#endif
 }
 
 /* Give out tasks up to the sample crew->end and wait until they are done. */
@@ -2982,7 +3004,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 #define rt__add RT__NAME(rt__add, RT__LANES)
 #define rt__aim RT__NAME(rt__aim, RT__LANES)
 #define rt__all RT__NAME(rt__all, RT__LANES)
-#define rt__back_lanes RT__NAME(rt__back_lanes, RT__LANES)
+#define rt__pull_lanes RT__NAME(rt__pull_lanes, RT__LANES)
 #define rt__backwards RT__NAME(rt__backwards, RT__LANES)
 #define rt__all_of RT__NAME(rt__all_of, RT__LANES)
 #define rt__bits RT__NAME(rt__bits, RT__LANES)
@@ -3665,8 +3687,8 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, float low, float high, rt
                   ~(cuts->t_in <= cuts->t_out);
 }
 
-/* rt__back. */
-RT__INLINE rt__f rt__back_lanes(rt__f p, rt__f origin)
+/* rt__pull. */
+RT__INLINE rt__f rt__pull_lanes(rt__f p, rt__f origin)
 {
     const rt__f step = rt__fmax(rt__fabs(p), rt__fabs(origin)) * (8.0f * FLT_EPSILON);
     const rt__m up = p > origin;
@@ -3706,8 +3728,8 @@ RT__INLINE rt__m rt__finish_box(const rt__rays *r, rt__m lanes, const rt__shape 
     const rt__m axis = (cuts.axis_out & inside) | (cuts.axis_in & ~inside);
     const rt__m good = lanes & ~cuts.miss & (t > 0.0f) & (t < others);
     const rt__f3 p = rt__add(o, rt__scale(u, t));
-    rt__f3 normal, point = rt__vec(rt__back_lanes(p.x, o.x), rt__back_lanes(p.y, o.y),
-                                   rt__back_lanes(p.z, o.z));
+    rt__f3 normal, point = rt__vec(rt__pull_lanes(p.x, o.x), rt__pull_lanes(p.y, o.y),
+                                   rt__pull_lanes(p.z, o.z));
     rt__face(axis == 0, inside, u.x, min.x, max.x, &normal.x, &point.x);
     rt__face(axis == 1, inside, u.y, min.y, max.y, &normal.y, &point.y);
     rt__face(axis == 2, inside, u.z, min.z, max.z, &normal.z, &point.z);
@@ -4165,7 +4187,7 @@ static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int 
 #undef rt__add
 #undef rt__aim
 #undef rt__all
-#undef rt__back_lanes
+#undef rt__pull_lanes
 #undef rt__backwards
 #undef rt__all_of
 #undef rt__bits

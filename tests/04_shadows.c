@@ -185,7 +185,7 @@ static void test_occluded_is_intersect_nearer_than_t_max(void **state)
 
 static rt_hit hit_on_floor(const rt_material *material)
 {
-    rt_hit hit = {1, {0, 0, 0}, {0, 1, 0}, NULL};
+    rt_hit hit = {.t = 1, .normal = {0, 1, 0}};
     hit.material = material;
     return hit;
 }

@@ -582,7 +582,7 @@ static rt_ray ray_in_the_room(rt_rng *rng)
 static long looked_at; /* nodes, and shapes whose box was met */
 
 static unsigned counting_enter(const rt_bvh_node *node, const rt_ray *ray,
-                               rt_vec3 inverse, float t_max, float *t)
+                               const rt_dvec3 *inverse, float t_max, float *t)
 {
     const unsigned met = rt__enter(node, ray, inverse, t_max, t);
     looked_at++;
@@ -779,7 +779,7 @@ static void test_no_memory(void **state)
             rt_status status = RT_NO_MEMORY;
             int failures = -1;
             for (fail_at = 0; status != RT_OK; fail_at++) {
-                rt_image image = {1, 1, &pixel, 0, 0, 0, NULL};
+                rt_image image = {.width = 1, .height = 1, .pixels = &pixel};
                 taken = 0;
                 memset(&m.bvh, 0x55, sizeof m.bvh);
                 if (render == 1)

@@ -481,7 +481,8 @@ static void test_the_error_of_two_pixels_by_hand(void **state)
     (void)state;
     rt_vec3 pixels[2] = {{2, 2, 2}, {2, 2, 2}};
     rt_vec3 half[2] = {{2.3f, 2.3f, 1.7f}, {1.6f, 2.4f, 1.6f}};
-    rt_image image = {2, 1, pixels, 5, 0, 0, half};
+    rt_image image = {
+        .width = 2, .height = 1, .pixels = pixels, .samples = 5, .half = half};
     assert_close(rt_image_error(&image), sqrt(0.1875) / 2, 1e-6);
     image.samples = 6; /* 3 of 6 */
     assert_close(rt_image_error(&image), sqrt(0.125) / 2, 1e-6);
@@ -491,7 +492,8 @@ static void test_the_error_is_unknown(void **state)
 {
     (void)state;
     rt_vec3 pixel = {1, 1, 1}, half = {1, 1, 1};
-    rt_image image = {1, 1, &pixel, 2, 0, 0, &half};
+    rt_image image = {
+        .width = 1, .height = 1, .pixels = &pixel, .samples = 2, .half = &half};
     assert_close(rt_image_error(&image), 0, 0);
     image.samples = 1;
     assert_true(rt_image_error(&image) == INFINITY);
@@ -522,7 +524,7 @@ static void test_half_is_the_mean_of_the_even_samples(void **state)
     const double all[] = {0, 0.5, 6, 55.0 / 6}, even[] = {0, 0, 20.0 / 3, 20.0 / 3};
     for (size_t i = 0; i < COUNT(samples); i++) {
         rt_vec3 pixel, half;
-        rt_image image = {1, 1, &pixel, 0, 0, 0, &half};
+        rt_image image = {.width = 1, .height = 1, .pixels = &pixel, .half = &half};
         options.samples = samples[i];
         assert_int_equal(rt_render_pixels(sample_squared, NULL, &options, &image), RT_OK);
         assert_close(pixel.x, all[i], 1e-5);
@@ -779,7 +781,10 @@ static void test_bad_samplers_errors_and_times_are_refused(void **state)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         rt_vec3 pixel = {7, 7, 7}, half = {7, 7, 7};
-        rt_image image = {1, 1, &pixel, 0, 0, 0, cases[i].half ? &half : NULL};
+        rt_image image = {.width = 1,
+                          .height = 1,
+                          .pixels = &pixel,
+                          .half = cases[i].half ? &half : NULL};
         rt_options options = defaults;
         options.samples = 1;
         options.sampler = (rt_sampler)cases[i].sampler;

@@ -85,7 +85,7 @@ static void test_the_samples_are_those_of_the_picture(void **state)
             rt_vec3 mean = {0, 0, 0};
             for (int k = 0; k < views[n].options.samples; k++) {
                 const rt_path path = traced(&views[n], &image, i % W, i / W, k);
-                rt__add_to_mean(&mean, k, path.value);
+                rt__add_to_mean(&mean, NULL, k, path.value);
                 rays += path.rays;
             }
             assert_true(same_bits(mean, image.pixels[i]));

@@ -80,7 +80,7 @@ static inline rt_ray ray_of(rt_vec3 origin, rt_vec3 direction)
 }
 
 /* A hit that no function has written to. */
-static const rt_hit untouched = {-7, {1, 2, 3}, {4, 5, 6}, NULL};
+static const rt_hit untouched = {-7, {1, 2, 3}, {4, 5, 6}, NULL, -7};
 
 #define assert_untouched(hit)                                                            \
     do {                                                                                 \

@@ -212,7 +212,8 @@ static rt_vec3 plain_pixel(const void *context, float x, float y, rt_rng *number
 /* With 0 lanes: the plain loop. One lane gets a tree, packets make one for themselves. */
 static uint64_t draw(int lanes, const rt_bvh *bvh, rt_vec3 *pixels)
 {
-    rt_image image = {width, height, pixels, first_sample, 0, 0, NULL};
+    rt_image image = {
+        .width = width, .height = height, .pixels = pixels, .samples = first_sample};
     memset(pixels, 0, sizeof *pixels * PIXELS);
     options.lanes = lanes;
     scene.bvh = lanes == 1 ? bvh : NULL;
