@@ -141,11 +141,19 @@
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "rt.h: without -ffast-math, -Ofast, -ffinite-math-only please: NaN tests would go."
 #endif
+#if defined(__TINYC__) && __TINYC__ <= 927
+#error                                                                                   \
+    "rt.h: another compiler please: tcc 0.9.27 mixes up three floats that go to a function."
+#endif
 #ifdef _M_FP_FAST
 #error "rt.h: without /fp:fast please, with /fp:precise: NaN tests would go."
 #endif
 #ifdef __clang__
 #pragma STDC FP_CONTRACT OFF /* undone at the end of the header; gcc needs the flag */
+#endif
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic push /* C has no other casts */
+#pragma GCC diagnostic ignored "-Wold-style-cast"
 #endif
 
 #ifdef __GNUC__ /* for the few functions that must be inlined to be fast */
@@ -566,13 +574,14 @@ static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
 
     const double a = rt_ddot(u, u);
     const double b = rt_ddot(f, u);
-    const double c = rt_ddot(f, f) - radius * radius;
+    const double ff = rt_ddot(f, f), rr = radius * radius;
+    const double c = ff - rr;
     double discriminant = b * b - a * c;
     if (!(a > 0.0 && radius > 0.0) || (c > 0.0 && b >= 0.0))
         return 0.0;
-    if (fabs(discriminant) < 1e-10 * (b * b)) { /* few digits are left of it */
+    if (rr < 1e-10 * ff) { /* few digits are left of it */
         const rt_dvec3 l = rt_dmad(f, -b / a, u);
-        discriminant = a * (radius * radius - rt_ddot(l, l));
+        discriminant = a * (rr - rt_ddot(l, l));
     }
     if (!(discriminant >= 0.0))
         return 0.0;
@@ -584,24 +593,15 @@ static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
     return t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max ? t : 0.0;
 }
 
-/* The first point of the sphere on the ray with 0 < t < t_max, see above.
- *
- * Returns false, and leaves *hit alone, on a miss; NaN or infinity anywhere, a direction
- * of length 0 and a radius that is not positive are misses.
- *
- * In double again; P is put back onto the sphere, O + R N, so that its error does not
- * grow with t. */
-static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
-                                 rt_hit *hit)
+/* The hit at this t. In double again; P is put back onto the sphere, O + R n, so that its
+ * error does not grow with t. P - O is R long but for rounding, and one step of Newton's
+ * method gives n length 1, unless the sphere is very far away. */
+static inline bool rt__hit_sphere_at(const rt_sphere *sphere, const rt_ray *ray, double t,
+                                     rt_hit *hit)
 {
-    const double t = rt__meet_sphere(sphere, ray, t_max);
-    if (!(t > 0.0))
-        return false;
     const rt_dvec3 u = rt_to_double(ray->direction);
     const rt_dvec3 center = rt_to_double(sphere->center);
     const rt_dvec3 f = rt_dsub(rt_to_double(ray->origin), center);
-    /* P - O is R long but for rounding, and one step of Newton's method makes the length of
-     * n precisely 1, unless the sphere is very far away */
     rt_dvec3 n = rt_dscale(rt_dmad(f, t, u), 1.0 / (double)sphere->radius);
     const double nn = rt_ddot(n, n);
     if (!(nn > 0.0))
@@ -614,12 +614,30 @@ static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, flo
     hit->shape = 0;
     return true;
 }
+
+/* The first point of the sphere on the ray with 0 < t < t_max, see above.
+ *
+ * Returns false, and leaves *hit alone, on a miss; NaN or infinity anywhere, a direction
+ * of length 0 and a radius that is not positive are misses. */
+static inline bool rt_hit_sphere(const rt_sphere *sphere, const rt_ray *ray, float t_max,
+                                 rt_hit *hit)
+{
+    const double t = rt__meet_sphere(sphere, ray, t_max);
+    return t > 0.0 && rt__hit_sphere_at(sphere, ray, t, hit);
+}
 #else /* by yours */
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
                                      float t_max)
 {
     rt_hit hit;
     return rt_hit_sphere(sphere, ray, t_max, &hit) ? (double)hit.t : 0.0;
+}
+
+static inline bool rt__hit_sphere_at(const rt_sphere *sphere, const rt_ray *ray, double t,
+                                     rt_hit *hit)
+{
+    (void)t; /* yours finds it again */
+    return rt_hit_sphere(sphere, ray, FLT_MAX, hit);
 }
 #endif
 
@@ -657,7 +675,7 @@ typedef struct rt_scene {
 static inline float rt__meet_box(const rt_box *box, const rt_ray *ray,
                                  float t_max); /* chapter 3 */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
-                                 rt_hit *hit); /* at its end */
+                                 double t, rt_hit *hit); /* at its end */
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit); /* chapter 8 */
 
@@ -671,11 +689,13 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
     if (scene->bvh)
         return rt__intersect_bvh(scene, ray, hit); /* the same answer, sooner */
     int nearest = -1;
+    double nearest_t = 0.0;
     float t_max = FLT_MAX;
     for (int i = 0; i < scene->sphere_count; i++) {
-        const float t = (float)rt__meet_sphere(&scene->spheres[i], ray, t_max);
-        if (t > 0.0f) {
-            t_max = t;
+        const double t = rt__meet_sphere(&scene->spheres[i], ray, t_max);
+        if (t > 0.0) {
+            t_max = (float)t;
+            nearest_t = t;
             nearest = i;
         }
     }
@@ -686,7 +706,7 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
             nearest = scene->sphere_count + i;
         }
     }
-    return nearest >= 0 && rt__hit_shape(scene, nearest, ray, hit);
+    return nearest >= 0 && rt__hit_shape(scene, nearest, ray, nearest_t, hit);
 }
 #endif
 
@@ -852,13 +872,17 @@ static inline float rt__pull(float p, float origin)
     return (pulled > origin) == (p > origin) ? pulled : origin;
 }
 
-/* The hit of the shape with this number. Of a box, P is pulled back along the face. */
+/* The hit of the shape with this number; of a sphere at t, or wherever it is if that is 0.
+ * Of a box, P is pulled back along the face. */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
-                                 rt_hit *hit)
+                                 double t, rt_hit *hit)
 {
     const int box = number - scene->sphere_count;
-    if (!(box < 0 ? rt_hit_sphere(&scene->spheres[number], ray, FLT_MAX, hit)
-                  : rt_hit_box(&scene->boxes[box], ray, FLT_MAX, hit)))
+    const rt_sphere *sphere = box < 0 ? &scene->spheres[number] : NULL;
+    const bool found = !sphere   ? rt_hit_box(&scene->boxes[box], ray, FLT_MAX, hit)
+                       : t > 0.0 ? rt__hit_sphere_at(sphere, ray, t, hit)
+                                 : rt_hit_sphere(sphere, ray, FLT_MAX, hit);
+    if (!found)
         return false;
     hit->shape = number;
     if (box >= 0) {
@@ -1362,7 +1386,8 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
                     return number;
             } else {
                 /* a little beyond t_max: a tie counts */
-                const float limit = t_max * (1.0f + FLT_EPSILON) + FLT_MIN;
+                const float more = t_max * FLT_EPSILON + FLT_MIN;
+                const float limit = t_max < FLT_MAX - more ? t_max + more : FLT_MAX;
                 const float found = rt__meet_shape(scene, number, ray, limit);
                 if (found > 0.0f &&
                     (found < t_max || (found == t_max && number < best))) {
@@ -1385,7 +1410,7 @@ static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
     if (scene->bvh->path)
         return rt__intersect_noted(scene, ray, hit);
     const int number = rt__search(scene, ray, FLT_MAX, false, rt__enter);
-    return number >= 0 && rt__hit_shape(scene, number, ray, hit);
+    return number >= 0 && rt__hit_shape(scene, number, ray, 0.0, hit);
 }
 
 static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, float t_max)
@@ -1783,6 +1808,9 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
     return blocked;
 }
 
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 #ifdef __clang__
 #pragma STDC FP_CONTRACT DEFAULT
 #endif
@@ -1796,6 +1824,10 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
 
 #ifdef __clang__
 #pragma STDC FP_CONTRACT OFF
+#endif
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wold-style-cast"
 #endif
 #ifdef _OPENMP
 #include <omp.h>
@@ -2955,6 +2987,9 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     return status;
 }
 
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 #ifdef __clang__
 #pragma STDC FP_CONTRACT DEFAULT
 #endif
@@ -3645,7 +3680,7 @@ rt__find_in_tree(const rt_scene *scene, const rt__rays *r, rt__m lanes, rt__hits
         const rt_ray ray = rt__ray_of_lane(r, lane);
         const int number = rt__search(scene, &ray, FLT_MAX, false, rt__enter_lanes);
         rt_hit hit;
-        if (number >= 0 && rt__hit_shape(scene, number, &ray, &hit))
+        if (number >= 0 && rt__hit_shape(scene, number, &ray, 0.0, &hit))
             rt__set_lane(hits, lane, &hit);
     }
 }
@@ -3766,7 +3801,7 @@ RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes
         const rt__d discriminant = b * b - a * c;
         const rt__d root = rt__dsqrt(discriminant), first = -b - root;
         ts[h] = rt__dselect(first > nought, first, -b + root) / a;
-        few[h] = discriminant - 1e-10 * (b * b);
+        few[h] = radius[h] * radius[h] - 1e-10 * rt__ddot(f, f);
         const rt__d3 m = rt__dscale(rt__dmad(f, ts[h], u[h]), 1.0 / radius[h]);
         const rt__d nn = rt__ddot(m, m);
         const rt__d3 n3 = rt__dscale(m, 1.5 - 0.5 * nn);
