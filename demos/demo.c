@@ -49,7 +49,8 @@ static void print_help(const demo *d)
            "limit)\n"
            "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
            "  --time S      stop after S seconds\n"
-           "  --bounces N   how often a ray is sent on (default %d%s)\n"
+           "  --bounces N   how often a ray is sent on (default %d%s);\n"
+           "                all: until nothing is left (chapters 7 to 9)\n"
            "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
            "  --lanes N     rays at a time, 1, 4, 8 or 16 (default: %s)\n"
            "  --sampler S   random or sobol numbers (default %s)\n"
@@ -106,6 +107,17 @@ static bool parse_decimal(const demo *d, const char *name, const char *text,
     return good;
 }
 
+/* Like parse_number, or all, where the demo's paths can end by roulette. */
+static bool parse_bounces(const demo *d, const char *text, long long *value)
+{
+    if (!text || strcmp(text, "all") != 0)
+        return parse_number(d, "--bounces", text, 0, INT_MAX - 1, value);
+    if (!d->explain)
+        fprintf(stderr, "%s: --bounces: 'all' is for chapters 7 to 9\n", d->name);
+    *value = RT_ALL_BOUNCES;
+    return d->explain;
+}
+
 static bool parse_sampler(const demo *d, const char *text, rt_sampler *sampler)
 {
     const bool random = text && strcmp(text, "random") == 0;
@@ -143,7 +155,6 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
         long long low, high, *value;
     } numbers[] = {
         {"--samples", 1, INT_MAX, &s->samples},
-        {"--bounces", 0, INT_MAX, &s->bounces},
         {"--threads", 0, 1024, &s->threads},
         {"--lanes", 0, 16, &s->lanes}, /* more about it below */
         {"--seed", 0, UINT32_MAX, &s->seed},
@@ -158,6 +169,9 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
         if (n < number_count) {
             if (!parse_number(d, arg, argv[++i], numbers[n].low, numbers[n].high,
                               numbers[n].value))
+                return false;
+        } else if (strcmp(arg, "--bounces") == 0) {
+            if (!parse_bounces(d, argv[++i], &s->bounces))
                 return false;
         } else if (strcmp(arg, "--error") == 0) {
             if (!parse_decimal(d, arg, argv[++i], "wanted error", &s->error))
@@ -347,6 +361,16 @@ static void interrupt(int signal)
 static const char *plural(long long n)
 {
     return n == 1 ? "" : "s";
+}
+
+/* "5 bounces" or "all bounces"; the text lasts until the next call. */
+static const char *bounces_in_words(const run *r)
+{
+    static char text[40];
+    const long long n = r->s.bounces;
+    snprintf(text, sizeof text, n == RT_ALL_BOUNCES ? "all bounces" : "%lld bounce%s", n,
+             plural(n));
+    return text;
 }
 
 /* How many samples the image has, and, where it can be estimated, the error. */
@@ -564,7 +588,7 @@ static void end_progress(const run *r)
 
 #include "window.h"
 
-/* Called by rt_render_pixels between two bands of pixels. */
+/* Called by rt_render_pixels every few milliseconds. */
 static bool progress(void *user, float part)
 {
     run *r = user;
@@ -608,8 +632,7 @@ static void print_job(const run *r)
         printf(", until the error is %g %%", 100.0 * (double)s->error);
     if (s->seconds > 0.0f)
         printf(", for %g s at most", (double)s->seconds);
-    printf(", %lld bounce%s, %d thread%s", s->bounces, plural(s->bounces), threads,
-           plural(threads));
+    printf(", %s, %d thread%s", bounces_in_words(r), threads, plural(threads));
     if (r->d->render)
         printf(", %d at a time", rt_lane_count((int)s->lanes));
     printf("\n");
@@ -636,9 +659,9 @@ static int explain(run *r)
     if (options.samples == 0)
         options.samples = r->d->samples;
     if (!r->s.quiet)
-        printf("%s: pixel %ld,%ld of %lld x %lld, %d sample%s, %lld bounce%s\n",
-               r->d->name, r->s.x, r->s.y, r->s.width, r->s.height, options.samples,
-               plural(options.samples), r->s.bounces, plural(r->s.bounces));
+        printf("%s: pixel %ld,%ld of %lld x %lld, %d sample%s, %s\n", r->d->name, r->s.x,
+               r->s.y, r->s.width, r->s.height, options.samples, plural(options.samples),
+               bounces_in_words(r));
     const rt_status status = r->d->explain(&options, &r->image, (int)r->s.x, (int)r->s.y);
     if (status != RT_OK)
         fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status));
@@ -726,10 +749,15 @@ int demo_main(int argc, char **argv, const demo *d)
     const bool estimate = d->estimate || r.s.error > 0.0f;
     if (estimate)
         r.image.half = calloc(count, sizeof *r.image.half);
+    const bool many = r.s.samples == 0 || r.s.samples > 1000;
+    if (many) /* their means need more digits; half may come later */
+        r.image.rest = calloc(2 * count, sizeof *r.image.rest);
+    const bool good = r.image.pixels && r.bytes && (r.image.half || !estimate) &&
+                      (r.image.rest || !many);
     int result = FAILED;
-    if (r.image.pixels && r.bytes && (r.image.half || !estimate) && r.s.explain) {
+    if (good && r.s.explain) {
         result = explain(&r);
-    } else if (r.image.pixels && r.bytes && (r.image.half || !estimate)) {
+    } else if (good) {
         if (d->measure && !r.s.quiet)
             d->measure(rt_thread_count((int)r.s.threads));
         struct sigaction action = {.sa_handler = interrupt};
@@ -751,6 +779,7 @@ int demo_main(int argc, char **argv, const demo *d)
     }
     free(r.image.pixels);
     free(r.image.half);
+    free(r.image.rest);
     free(r.bytes);
     if (ferror(stdout) || fflush(stdout) != 0) {
         fprintf(stderr, "%s: cannot write to standard output\n", d->name);

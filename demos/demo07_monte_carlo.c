@@ -49,6 +49,8 @@ static rt_vec3 radiance(const rt_scene *scene, rt_ray ray, int bounces, rt_rng *
 static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)
 {
     const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
+    if (view->bounces == RT_ALL_BOUNCES) /* by roulette, as in rt.h */
+        return rt_radiance(&scene_indirect, &ray, view->bounces, rng);
     return radiance(&scene_indirect, ray, view->bounces, rng);
 }
 

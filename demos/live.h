@@ -439,7 +439,7 @@ static int live_path(int stage, const demo_view *view, const rt_options *options
     live_lines l = {lines, most, 0};
     rt_path path = empty_path();
     rt_options traced = *options;
-    traced.bounces = stage < 6 ? 0 : view->bounces < 90 ? view->bounces : 90;
+    traced.bounces = stage < 6 ? 0 : view->bounces;
     if (rt_trace_pixel(live_scene(stage), &room_camera, &traced, image, x, y, sample,
                        &path) != RT_OK)
         return 0;

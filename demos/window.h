@@ -104,8 +104,7 @@ static void forget(rt_image *image)
     memset(image->pixels, 0, count * sizeof *image->pixels);
     if (image->half)
         memset(image->half, 0, count * sizeof *image->half);
-    image->samples = image->done = 0;
-    image->rays = 0;
+    rt_image_clear(image);
 }
 
 /* What is seen has changed: draw drafts for a while, and begin anew. */
@@ -358,9 +357,9 @@ static void set_title(run *r, const rt_image *shown, const char *pixel)
     if (w->stage == 7 && !(r->d->pixel && is_own(r, 7)))
         fprintf(t, ", %d at a time", rt_lane_count((int)r->s.lanes));
     const int threads = rt_thread_count((int)r->s.threads);
-    fprintf(t, ", %d thread%s, %lld bounce%s, %s%s%s (h: keys)", threads, plural(threads),
-            r->s.bounces, plural(r->s.bounces),
-            r->s.sampler == RT_RANDOM ? "random" : "sobol", *pixel ? " - " : "", pixel);
+    fprintf(t, ", %d thread%s, %s, %s%s%s (h: keys)", threads, plural(threads),
+            bounces_in_words(r), r->s.sampler == RT_RANDOM ? "random" : "sobol",
+            *pixel ? " - " : "", pixel);
     fclose(t);
     SDL_SetWindowTitle(w->window, title);
 }
@@ -425,8 +424,8 @@ static void say_what_is_under(run *r)
     if (r->s.quiet)
         return;
     end_progress(r);
-    printf("%s: pixel %d,%d of %d x %d, %d bounce%s\n", r->d->name, r->win->x, r->win->y,
-           r->image.width, r->image.height, (int)r->s.bounces, plural(r->s.bounces));
+    printf("%s: pixel %d,%d of %d x %d, %s\n", r->d->name, r->win->x, r->win->y,
+           r->image.width, r->image.height, bounces_in_words(r));
     draw_path(r, plan, plan, stdout);
     fflush(stdout);
 }
@@ -495,6 +494,12 @@ static void set_samples(run *r, int samples)
     r->win->samples = samples < 1 ? 1 : samples < 1 << 20 ? samples : 1 << 20;
     r->win->stop = r->win->disturbed = true; /* what there is already, stays */
 }
+/* 0 to 90, and then all that there are. */
+static void more_bounces(run *r, int more)
+{
+    const long long now = r->s.bounces < 91 ? r->s.bounces : 91, next = now + more;
+    r->s.bounces = next < 0 ? 0 : next < 91 ? next : RT_ALL_BOUNCES;
+}
 
 /* Keys that move the camera or change what is seen. False: it is none of them. */
 static bool change_by_key(run *r, SDL_Keycode key)
@@ -517,8 +522,8 @@ static bool change_by_key(run *r, SDL_Keycode key)
     case SDLK_PAGEUP: live->zoom(0.9f); break;
     case SDLK_PAGEDOWN: live->zoom(1.0f / 0.9f); break;
     case SDLK_l: r->s.sampler = r->s.sampler == RT_RANDOM ? RT_SOBOL : RT_RANDOM; break;
-    case SDLK_RIGHTBRACKET: r->s.bounces += r->s.bounces < 90; break;
-    case SDLK_LEFTBRACKET: r->s.bounces -= r->s.bounces > 0; break;
+    case SDLK_RIGHTBRACKET: more_bounces(r, 1); break;
+    case SDLK_LEFTBRACKET: more_bounces(r, -1); break;
     case SDLK_r:
         live->reset();
         r->s = w->first;
@@ -691,8 +696,8 @@ static void poll_events(run *r)
         save_view(r);
 }
 
-/* Between two bands of pixels, every few milliseconds, while no thread renders: so the window
- * answers, and the image may be read. False: stop. */
+/* Every few milliseconds, while no thread writes to the image: so the window answers, and the
+ * image may be read. False: stop. */
 static bool window_progress(run *r)
 {
     poll_events(r);

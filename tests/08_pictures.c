@@ -228,7 +228,7 @@ static void test_progress_rises_to_one(void **state)
     assert_close(w.last, 1, 0);
     w.calls = 0;
     w.last = 0;
-    options.samples = 2; /* and again from 0 to 1 when more samples are added */
+    options.samples = 32; /* and again from 0 to 1 when more samples are added */
     assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image), RT_OK);
     assert_close(w.last, 1, 0);
     assert_true(w.first < 0.6f);

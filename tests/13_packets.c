@@ -478,11 +478,10 @@ static void test_a_ray_that_grazes_a_mirror(void **state)
 {
     /* So closely that, by rounding, the reflected ray starts below the surface. */
     (void)state;
-    const rt_sphere spheres[2] = {
-        {{2.33734298f, 2.05889654f, -4.97650719f}, 1.28531194f, {{1, 1, 1}, true}},
-        {{3.14526725f, 0.674847066f, -5.08293867f}, 1.60872149f, {{1, 1, 1}, true}}};
+    const rt_sphere spheres[1] = {
+        {{0.756089509f, 0.358208299f, -5.40043497f}, 1.05996764f, {{1, 1, 1}, true}}};
     const rt_camera camera = {{0, 0, 0}, {0.3f, 0.2f, -1}, {0, 1, 0}, 1e-44f};
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 1; i++) {
         const rt_scene scene = {
             .spheres = &spheres[i], .sphere_count = 1, .background = {0.3f, 0.6f, 0.4f}};
         const rt_ray ray = rt_camera_ray(&camera, 1, 1, 0.5f, 0.5f);
