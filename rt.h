@@ -86,26 +86,33 @@
  *                 d in the direction L (|L| = 1), albedo rho, <a,b> scalar product.
  *
  * THREADS         Every function may run at the same time on several threads, as long as
- *                 nobody writes what another reads. rt_render starts threads by itself.
- *                 Where other programs keep the cores busy, too, set
- *                 OMP_WAIT_POLICY=passive in the environment, or its threads lose time by
- *                 waiting for each other.
+ *                 nobody writes what another reads. rt_render starts threads by itself,
+ *                 and they meet only when it ends. After that, in a child that fork()
+ *                 makes, GNU's OpenMP hangs as soon as it needs more than one thread:
+ *                 give options.threads = 1 there, or fork before the first picture.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
- *                 of threads or lanes, nor on how samples are split over calls. Pass
- *                 -ffp-contract=off for that: else gcc contracts a*b+c where the machine
- *                 can (-march=native), and not everywhere alike. It also makes the bits
- *                 the same on all machines and compilers. -ffast-math is refused.
+ *                 of threads or lanes, nor on how samples are split over calls (but see
+ *                 rt_render on more than 4096 in one call). Pass -ffp-contract=off for
+ *                 that: else gcc contracts a*b+c where the machine can (-march=native),
+ *                 and not everywhere alike. It also makes the bits the same on all
+ *                 machines and compilers. -ffast-math is refused.
  * ROBUSTNESS      Spheres are intersected in double precision, so that walls of radius
- *                 1e5 work in a room of size 100: no wrong hit or miss in 1.8 million
- *                 rays, t within one rounding. Boxes in float, exact on planes, edges and
- *                 corners. A ray that leaves a surface starts 8 roundings beside it
- *                 (rt_leave): no self-hit in 3 million bounces. NaN and infinity in a ray
- *                 or a shape are a miss, never a crash. Sine and cosine are our own, so
- *                 that libm cannot change a path. How all this is tested:
+ *                 1e5 work in a room of size 100, and a sphere is hit from 1e12 radii
+ *                 away: no wrong hit or miss in 1.8 million rays, t within one rounding.
+ *                 Boxes in float, exact on planes, edges and corners; no ray leaves a
+ *                 closed box, or a room of six walls, of 1e9 that were sent. A ray that
+ *                 leaves a surface starts 8 roundings beside it (rt_leave): no self-hit
+ *                 in 3 million bounces. NaN and infinity in a ray or a shape are a miss,
+ *                 never a crash. Sine and cosine are our own, so that libm cannot change
+ *                 a path. A valid scene raises no floating-point exception (invalid,
+ *                 divide, overflow), so that you may trap yours; clang needs
+ *                 -ftrapping-math for that. Packets do raise them, but rt_render runs
+ *                 them with traps off and the flags put back. How all this is tested:
  *                 docs/correctness.md.
+ * IN C++          Include it outside of any namespace, for it includes C headers.
  * ERRORS          rt_render, rt_render_pixels, rt_build_bvh and rt_check_... can fail.
  *                 They return an rt_status, and rt_status_text says in English what was
- *                 wrong.
+ *                 wrong and what to do about it.
  *
  * CONTENTS        0 vectors            rt_vec3, rt_dot, rt_normalize, rt_basis, rt_sincos
  *                 1 rays and spheres   rt_ray, rt_camera_ray, rt_hit_sphere
