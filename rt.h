@@ -2490,18 +2490,19 @@ static inline rt_status rt__check_job(const rt_image *image, const rt_options *o
     return RT_OK;
 }
 
+/* A lock that one thread at a time can hold; without OpenMP there is only one. */
 #ifdef _OPENMP
-typedef omp_lock_t rt__lock;
-#define rt__open(lock) omp_init_lock(lock)
-#define rt__take(lock) omp_set_lock(lock)
-#define rt__give(lock) omp_unset_lock(lock)
-#define rt__close(lock) omp_destroy_lock(lock)
+typedef omp_lock_t rt__mutex;
+#define rt__init_lock(mutex) omp_init_lock(mutex)
+#define rt__lock(mutex) omp_set_lock(mutex)
+#define rt__unlock(mutex) omp_unset_lock(mutex)
+#define rt__destroy_lock(mutex) omp_destroy_lock(mutex)
 #else
-typedef char rt__lock;
-#define rt__open(lock) (void)(lock)
-#define rt__take(lock) (void)(lock)
-#define rt__give(lock) (void)(lock)
-#define rt__close(lock) (void)(lock)
+typedef char rt__mutex;
+#define rt__init_lock(mutex) (void)(mutex)
+#define rt__lock(mutex) (void)(mutex)
+#define rt__unlock(mutex) (void)(mutex)
+#define rt__destroy_lock(mutex) (void)(mutex)
 #endif
 
 /* Pixels with neighbouring numbers, and some samples of each: what a thread does before it
@@ -2514,208 +2515,205 @@ typedef struct rt__task {
 } rt__task;
 
 /* What the threads share. */
-typedef struct rt__crew {
-    rt_watch
-        watch; /* of the thread that called; first, so that its address is the crew's */
+typedef struct rt__team {
+    rt_watch watch; /* of the thread that called: first, so its address is the team's */
     const rt__job *job;
-    int threads, chunk, chunks; /* there are so many chunks of so many pixels */
-    rt__lock *pens; /* each thread holds its own while it writes to the image */
-    double start, asked, patience; /* progress was asked then; again after so long */
+    int threads, chunk, chunks;    /* there are so many chunks of so many pixels */
+    rt__mutex *writing;            /* each thread locks its own while it writes pixels */
+    double start, asked, interval; /* progress was asked then; again after so long */
+    double begun, wanted;          /* the image had so many samples, and gets so many */
     int first_sample, first_pixel; /* what the image lacks first */
     int end;                       /* tasks go up to this sample, not included */
-    double wanted;                 /* so many samples are to be added */
     float part_of_error;
 
-    rt__lock desk; /* for what follows: one thread at a time */
-    rt__task last; /* the last task that was given out */
-    int *recorded; /* how many samples each chunk has in the image */
-    double since;  /* when the samples of this task were begun */
+    rt__mutex queue; /* who reads or writes what follows locks this */
+    rt__task last;   /* the last task that was given out */
+    int *recorded;   /* how many samples each chunk has in the image */
+    double since;    /* when the samples of this task were begun */
     bool cancelled, time_over;
-} rt__crew;
+} rt__team;
 
-/* The next task, if there is one; *task was the one before it of the same thread, which took
- * so many rays. Tasks are given out in order and all of them are finished: so the image has,
- * when a picture is stopped, a sample more of all pixels up to some number. For that a
- * task is one sample of its pixels; of small pictures several, so that it is not too short. */
-static inline bool rt__next_task(rt__crew *crew, rt__task *task, uint64_t rays)
+/* The next task, if there is one; *task was the one before of the same thread, and took so
+ * many rays. Tasks are given out in order, and what was given out is finished: so when a
+ * picture is stopped, all pixels up to some number have one sample more than the others.
+ * A task is one sample of its pixels. Of small pictures it is several, lest it be too short;
+ * then all pixels get them before anything stops. */
+static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
 {
-    rt__task *last = &crew->last;
-    rt__take(&crew->desk);
-    crew->job->image->rays += rays;
+    rt__task *last = &team->last;
+    rt__lock(&team->queue);
+    team->job->image->rays += rays;
     if (task->to > task->from)
-        crew->recorded[task->chunk] = task->to;
-    const bool all =
-        last->chunk == crew->chunks - 1; /* those pixels have their samples */
-    const bool one = last->to - last->from == 1 || all;
-    const bool stop =
-        crew->cancelled || (crew->time_over && (last->from > 0 || (all && last->to > 0)));
-    const bool more = (!all || last->to < crew->end) && !(stop && one);
+        team->recorded[task->chunk] = task->to;
+    const bool all = last->chunk == team->chunks - 1; /* given out, of these samples */
+    const bool over = team->time_over && (last->from > 0 || (all && last->to > 0));
+    const bool may_stop = all || last->to - last->from == 1;
+    const bool stop = (team->cancelled || over) && may_stop;
+    const bool more = !stop && (!all || last->to < team->end);
     if (more && all) {
-        const double now = rt__seconds(), seconds = now - crew->since;
+        const double now = rt__seconds(), seconds = now - team->since;
         int samples = last->to - last->from;
         samples = seconds < 0.0025 && samples < INT_MAX / 2 ? 2 * samples
                   : seconds > 0.01 && samples > 1           ? samples / 2
                                                             : samples;
-        crew->since = now;
+        team->since = now;
         last->from = last->to;
-        last->to += samples < crew->end - last->to ? samples : crew->end - last->to;
+        last->to += samples < team->end - last->to ? samples : team->end - last->to;
         last->chunk = -1;
     }
     if (more) {
         last->chunk++;
-        last->ready = crew->recorded[last->chunk] == last->from;
+        last->ready = team->recorded[last->chunk] == last->from;
         *task = *last;
     }
-    rt__give(&crew->desk);
+    rt__unlock(&team->queue);
     return more;
 }
 
 /* Are all samples recorded that come before this task? */
-static inline bool rt__is_ready(rt__crew *crew, rt__task *task)
+static inline bool rt__is_ready(rt__team *team, rt__task *task)
 {
     if (!task->ready) {
-        rt__take(&crew->desk);
-        task->ready = crew->recorded[task->chunk] == task->from;
-        rt__give(&crew->desk);
+        rt__lock(&team->queue);
+        task->ready = team->recorded[task->chunk] == task->from;
+        rt__unlock(&team->queue);
     }
     return task->ready;
 }
 
 /* Samples and done of the image: what all chunks have, and how many at the beginning have
  * one more. Returns whether all tasks that were given out are recorded. */
-static inline bool rt__count_samples(rt__crew *crew)
+static inline bool rt__count_samples(rt__team *team)
 {
-    rt_image *image = crew->job->image;
-    rt__take(&crew->desk);
+    rt_image *image = team->job->image;
+    rt__lock(&team->queue);
     int least = INT_MAX, ahead = 0;
-    for (int k = 0; k < crew->chunks; k++)
-        least = crew->recorded[k] < least ? crew->recorded[k] : least;
-    while (ahead < crew->chunks && crew->recorded[ahead] > least)
+    for (int k = 0; k < team->chunks; k++)
+        least = team->recorded[k] < least ? team->recorded[k] : least;
+    while (ahead < team->chunks && team->recorded[ahead] > least)
         ahead++;
     bool all = true;
-    for (int k = 0; k < crew->chunks && all; k++)
-        all = crew->recorded[k] ==
-              (k <= crew->last.chunk ? crew->last.to : crew->last.from);
+    for (int k = 0; k < team->chunks && all; k++)
+        all = team->recorded[k] ==
+              (k <= team->last.chunk ? team->last.to : team->last.from);
     image->samples = least;
-    image->done = ahead * crew->chunk;
-    if (least == crew->first_sample && image->done < crew->first_pixel)
-        image->done = crew->first_pixel;
-    rt__give(&crew->desk);
+    image->done = ahead * team->chunk;
+    if (least == team->first_sample && image->done < team->first_pixel)
+        image->done = team->first_pixel;
+    rt__unlock(&team->queue);
     return all;
 }
 
 /* How much is done of what rt_render was called for, 0 to 1. */
-static inline float rt__part(rt__crew *crew, double now)
+static inline float rt__part(rt__team *team, double now)
 {
-    const float limit = crew->job->options.seconds;
-    rt__take(&crew->desk);
-    const rt__task *last = &crew->last;
+    const float limit = team->job->options.seconds;
+    rt__lock(&team->queue);
+    const rt__task *last = &team->last;
     const double samples =
-        last->from + (last->to - last->from) * (last->chunk + 0.5) / crew->chunks;
-    rt__give(&crew->desk);
-    const rt_image *image = crew->job->image;
-    const double begun =
-        crew->first_sample + (double)crew->first_pixel / image->width / image->height;
-    float part = (float)((samples - begun) / crew->wanted);
-    part = part > crew->part_of_error ? part : crew->part_of_error;
-    if (limit > 0.0f && (float)(now - crew->start) / limit > part)
-        part = (float)(now - crew->start) / limit;
+        last->from + (last->to - last->from) * (last->chunk + 0.5) / team->chunks;
+    rt__unlock(&team->queue);
+    float part = (float)((samples - team->begun) / team->wanted);
+    part = part > team->part_of_error ? part : team->part_of_error;
+    if (limit > 0.0f && (float)(now - team->start) / limit > part)
+        part = (float)(now - team->start) / limit;
     return part < 0.0f ? 0.0f : part < 1.0f ? part : 1.0f;
 }
 
 /* Now and then the thread that called rt_render looks up from its work: is the time over, and
- * is it time to ask progress? It takes the pens of all others for that. They go on tracing,
- * and none waits for more than that one has an answer; so threads meet only at the end. */
+ * is it time to ask progress? While progress reads the image, it holds the locks of all
+ * others. They go on tracing and wait only when they want to write: nobody waits for the
+ * slowest before the very end. */
 static inline void rt__look_up(rt_watch *watch)
 {
-    rt__crew *crew = (rt__crew *)watch;
-    const rt_options *o = &crew->job->options;
+    rt__team *team = (rt__team *)watch;
+    const rt_options *o = &team->job->options;
     const double now = rt__seconds();
-    bool over = o->seconds > 0.0f && now - crew->start >= (double)o->seconds,
-         go_on = true;
-    watch->ticks = crew->job->ticks;
-    if (o->progress && now - crew->asked >= crew->patience) {
-        for (int k = 1; k < crew->threads; k++)
-            rt__take(&crew->pens[k]);
-        rt__count_samples(crew);
-        go_on = o->progress(o->user, rt__part(crew, now));
-        for (int k = 1; k < crew->threads; k++)
-            rt__give(&crew->pens[k]);
-        crew->asked = rt__seconds();
-        crew->patience = crew->patience < 0.0075 ? 2.0 * crew->patience + 0.0001 : 0.015;
+    const bool over = o->seconds > 0.0f && now - team->start >= (double)o->seconds;
+    bool go_on = true;
+    watch->ticks = team->job->ticks;
+    if (o->progress && now - team->asked >= team->interval) {
+        for (int k = 1; k < team->threads; k++)
+            rt__lock(&team->writing[k]);
+        rt__count_samples(team);
+        go_on = o->progress(o->user, rt__part(team, now));
+        for (int k = 1; k < team->threads; k++)
+            rt__unlock(&team->writing[k]);
+        team->asked = rt__seconds();
+        team->interval = team->interval < 0.0075 ? 2.0 * team->interval + 0.0001 : 0.015;
     }
     if (over || !go_on) {
-        rt__take(&crew->desk);
-        crew->time_over = crew->time_over || over;
-        crew->cancelled = crew->cancelled || !go_on;
-        rt__give(&crew->desk);
+        rt__lock(&team->queue);
+        team->time_over = team->time_over || over;
+        team->cancelled = team->cancelled || !go_on;
+        rt__unlock(&team->queue);
     }
 }
 
 /* What one thread does, from the first task to the last. Packets compute what some of their
  * lanes do not need, and divide by zero there: a program that traps such things, to find
  * its own, does not stop for them, and does not see their flags. */
-static inline void rt__work(rt__crew *crew, int thread)
+static inline void rt__work(rt__team *team, int thread)
 {
 #ifdef RT__PACKETS
     fenv_t environment;
-    if (crew->job->together > 1)
+    if (team->job->together > 1)
         feholdexcept(&environment);
 #endif
-    const rt__job *job = crew->job;
+    const rt__job *job = team->job;
     rt_image *image = job->image;
     const int count = image->width * image->height;
     const bool looks_up = job->options.progress || job->options.seconds > 0.0f;
-    rt_watch *watch = thread == 0 && looks_up ? &crew->watch : NULL;
+    rt_watch *watch = thread == 0 && looks_up ? &team->watch : NULL;
     rt_vec3 values[RT__CHUNK];
     uint64_t rays = 0;
     rt__task task;
     task.chunk = task.from = task.to = 0;
-    while (rt__next_task(crew, &task, rays)) {
-        int first = task.chunk * crew->chunk;
-        const int last = count - first > crew->chunk ? first + crew->chunk : count;
-        if (task.from == crew->first_sample && first < crew->first_pixel)
-            first = crew->first_pixel;
+    while (rt__next_task(team, &task, rays)) {
+        int first = task.chunk * team->chunk;
+        const int last = count - first > team->chunk ? first + team->chunk : count;
+        if (task.from == team->first_sample && first < team->first_pixel)
+            first = team->first_pixel;
         rays = 0;
         for (int sample = task.from; sample < task.to; sample++) {
             rays += job->step(job, sample, first, last, watch, values);
-            while (!rt__is_ready(crew, &task))
+            while (!rt__is_ready(team, &task))
                 rt__tick(watch);
-            rt__take(&crew->pens[thread]);
+            rt__lock(&team->writing[thread]);
             for (int i = first; i < last; i++)
                 rt__record(image, sample, i, values[i - first]);
-            rt__give(&crew->pens[thread]);
+            rt__unlock(&team->writing[thread]);
         }
         if (watch)
             watch->look(watch);
     }
     if (watch)
-        while (!rt__count_samples(crew)) /* the others have not finished theirs */
+        while (!rt__count_samples(team)) /* the others have not finished theirs */
             watch->look(watch);
 #ifdef RT__PACKETS
-    if (crew->job->together > 1)
+    if (team->job->together > 1)
         fesetenv(&environment);
 #endif
 }
 
-/* Give out tasks up to the sample crew->end and wait until they are done. */
-static inline void rt__work_together(rt__crew *crew)
+/* Give out tasks up to the sample team->end and wait until they are done. */
+static inline void rt__work_together(rt__team *team)
 {
-    rt_image *image = crew->job->image;
-    crew->first_sample = image->samples;
-    crew->first_pixel = image->done;
-    crew->last.chunk = image->done / crew->chunk - 1;
-    crew->last.from = image->samples;
-    crew->last.to = image->samples + 1;
-    for (int k = 0; k < crew->chunks; k++)
-        crew->recorded[k] = image->samples + (k <= crew->last.chunk ? 1 : 0);
+    rt_image *image = team->job->image;
+    team->first_sample = image->samples;
+    team->first_pixel = image->done;
+    team->last.chunk = image->done / team->chunk - 1;
+    team->last.from = image->samples;
+    team->last.to = image->samples + 1;
+    for (int k = 0; k < team->chunks; k++)
+        team->recorded[k] = image->samples + (k <= team->last.chunk ? 1 : 0);
 #ifdef _OPENMP
-#pragma omp parallel num_threads(crew->threads)
-    rt__work(crew, omp_get_thread_num());
+#pragma omp parallel num_threads(team->threads)
+    rt__work(team, omp_get_thread_num());
 #else
-    rt__work(crew, 0);
+    rt__work(team, 0);
 #endif
-    rt__count_samples(crew);
+    rt__count_samples(team);
 }
 
 /* Means of more samples than this in one call keep their rest. */
@@ -2723,18 +2721,18 @@ enum { RT__MANY = 4096 };
 
 /* All samples. The error is looked at when their number has grown by an eighth, and is
  * even; for that the threads have to meet. */
-static inline void rt__run_crew(rt__crew *crew, int target)
+static inline void rt__run_team(rt__team *team, int target)
 {
-    const rt_options *o = &crew->job->options;
-    rt_image *image = crew->job->image;
+    const rt_options *o = &team->job->options;
+    rt_image *image = team->job->image;
     int64_t look = (image->samples + (int64_t)17) / 2 * 2;
-    while (image->samples < target && crew->part_of_error < 1.0f && !crew->cancelled &&
-           !(crew->time_over && image->samples > 0)) {
-        crew->end = o->error > 0.0f && look < target ? (int)look : target;
-        rt__work_together(crew);
+    while (image->samples < target && team->part_of_error < 1.0f && !team->cancelled &&
+           !(team->time_over && image->samples > 0)) {
+        team->end = o->error > 0.0f && look < target ? (int)look : target;
+        rt__work_together(team);
         if (o->error > 0.0f && image->done == 0 && image->samples == look) {
             const float error = rt_image_error(image), part = o->error / error;
-            crew->part_of_error = error <= o->error ? 1.0f : part * part;
+            team->part_of_error = error <= o->error ? 1.0f : part * part;
             look += 2 * (look / 16 + 1);
         }
     }
@@ -2751,49 +2749,50 @@ static inline rt_status rt__run(const rt__job *job)
         samples = o->error > 0.0f || o->seconds > 0.0f ? INT_MAX - image->samples : 16;
     const int target = image->samples + samples;
 
-    rt__crew crew;
-    memset(&crew, 0, sizeof crew);
-    crew.watch.look = rt__look_up;
-    crew.watch.ticks = job->ticks;
-    crew.job = job;
-    crew.threads = rt_thread_count(o->threads);
-    crew.wanted = samples;
-    crew.start = crew.since = rt__seconds();
+    rt__team team;
+    memset(&team, 0, sizeof team);
+    team.watch.look = rt__look_up;
+    team.watch.ticks = job->ticks;
+    team.job = job;
+    team.threads = rt_thread_count(o->threads);
+    team.begun = image->samples + (double)image->done / count;
+    team.wanted = samples;
+    team.start = team.since = rt__seconds();
     /* a chunk has a thousand rays or so, and there are some for each thread, if possible */
     const int pixels = 1024 / (o->bounces < 1024 ? o->bounces + 1 : 1024);
-    const int shared = count / (4 * crew.threads),
+    const int shared = count / (4 * team.threads),
               fewer = shared < pixels ? shared : pixels;
     const int packets = (fewer < RT__CHUNK ? fewer : RT__CHUNK) / job->together;
-    crew.chunk = job->together * (packets > 0 ? packets : 1);
-    crew.chunks = (count - 1) / crew.chunk + 1;
-    crew.threads = crew.chunks < crew.threads ? crew.chunks : crew.threads;
+    team.chunk = job->together * (packets > 0 ? packets : 1);
+    team.chunks = (count - 1) / team.chunk + 1;
+    team.threads = team.chunks < team.threads ? team.chunks : team.threads;
 
-    crew.recorded = (int *)RT_MALLOC((size_t)crew.chunks * sizeof *crew.recorded);
-    crew.pens = (rt__lock *)RT_MALLOC((size_t)crew.threads * sizeof *crew.pens);
+    team.recorded = (int *)RT_MALLOC((size_t)team.chunks * sizeof *team.recorded);
+    team.writing = (rt__mutex *)RT_MALLOC((size_t)team.threads * sizeof *team.writing);
     const bool borrow = !image->rest && o->samples > RT__MANY;
     if (borrow)
         image->rest = (rt_vec3 *)RT_MALLOC(vectors * sizeof *image->rest);
-    const bool good = crew.recorded && crew.pens && (image->rest || !borrow);
+    const bool good = team.recorded && team.writing && (image->rest || !borrow);
     if (good) {
         if (borrow)
             memset(image->rest, 0, vectors * sizeof *image->rest);
-        rt__open(&crew.desk);
-        for (int k = 0; k < crew.threads; k++)
-            rt__open(&crew.pens[k]);
-        rt__run_crew(&crew, target);
-        for (int k = 0; k < crew.threads; k++)
-            rt__close(&crew.pens[k]);
-        rt__close(&crew.desk);
+        rt__init_lock(&team.queue);
+        for (int k = 0; k < team.threads; k++)
+            rt__init_lock(&team.writing[k]);
+        rt__run_team(&team, target);
+        for (int k = 0; k < team.threads; k++)
+            rt__destroy_lock(&team.writing[k]);
+        rt__destroy_lock(&team.queue);
     }
-    RT_FREE(crew.recorded);
-    RT_FREE(crew.pens);
+    RT_FREE(team.recorded);
+    RT_FREE(team.writing);
     if (borrow) {
         RT_FREE(image->rest);
         image->rest = NULL;
     }
     if (!good)
         return RT_NO_MEMORY;
-    if (image->samples < target && crew.cancelled && crew.part_of_error < 1.0f)
+    if (image->samples < target && team.cancelled && team.part_of_error < 1.0f)
         return RT_CANCELLED;
     if (o->progress)
         o->progress(o->user, 1.0f);
