@@ -2511,7 +2511,6 @@ enum { RT__CHUNK = 128 };
 typedef struct rt__task {
     int chunk;    /* which pixels */
     int from, to; /* samples number from, from + 1 ... to - 1 */
-    bool ready;   /* all samples before are recorded */
 } rt__task;
 
 /* What the threads share. */
@@ -2530,7 +2529,7 @@ typedef struct rt__team {
     rt__task last;   /* the last task that was given out */
     int *recorded;   /* how many samples each chunk has in the image */
     double since;    /* when the samples of this task were begun */
-    bool cancelled, time_over;
+    bool asked_once, cancelled, time_over;
 } rt__team;
 
 /* The next task, if there is one; *task was the one before of the same thread, and took so
@@ -2563,22 +2562,21 @@ static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
     }
     if (more) {
         last->chunk++;
-        last->ready = team->recorded[last->chunk] == last->from;
         *task = *last;
     }
     rt__unlock(&team->queue);
     return more;
 }
 
-/* Are all samples recorded that come before this task? */
-static inline bool rt__is_ready(rt__team *team, rt__task *task)
+/* May a thread record the task that it has traced? If all samples before are recorded and,
+ * so that a picture can be stopped before much is done, progress was asked once. */
+static inline bool rt__may_record(rt__team *team, const rt__task *task, int thread)
 {
-    if (!task->ready) {
-        rt__lock(&team->queue);
-        task->ready = team->recorded[task->chunk] == task->from;
-        rt__unlock(&team->queue);
-    }
-    return task->ready;
+    rt__lock(&team->queue);
+    const bool may =
+        team->recorded[task->chunk] == task->from && (thread == 0 || team->asked_once);
+    rt__unlock(&team->queue);
+    return may;
 }
 
 /* Samples and done of the image: what all chunks have, and how many at the beginning have
@@ -2639,8 +2637,11 @@ static inline void rt__look_up(rt_watch *watch)
         go_on = o->progress(o->user, rt__part(team, now));
         for (int k = 1; k < team->threads; k++)
             rt__unlock(&team->writing[k]);
+        rt__lock(&team->queue);
+        team->asked_once = true;
+        rt__unlock(&team->queue);
         team->asked = rt__seconds();
-        team->interval = team->interval < 0.0075 ? 2.0 * team->interval + 0.0001 : 0.015;
+        team->interval = team->interval < 0.0075 ? 2.0 * team->interval + 5e-5 : 0.015;
     }
     if (over || !go_on) {
         rt__lock(&team->queue);
@@ -2677,7 +2678,7 @@ static inline void rt__work(rt__team *team, int thread)
         rays = 0;
         for (int sample = task.from; sample < task.to; sample++) {
             rays += job->step(job, sample, first, last, watch, values);
-            while (!rt__is_ready(team, &task))
+            while (sample == task.from && !rt__may_record(team, &task, thread))
                 rt__tick(watch);
             rt__lock(&team->writing[thread]);
             for (int i = first; i < last; i++)
@@ -2757,6 +2758,7 @@ static inline rt_status rt__run(const rt__job *job)
     team.threads = rt_thread_count(o->threads);
     team.begun = image->samples + (double)image->done / count;
     team.wanted = samples;
+    team.asked_once = !o->progress;
     team.start = team.since = rt__seconds();
     /* a chunk has a thousand rays or so, and there are some for each thread, if possible */
     const int pixels = 1024 / (o->bounces < 1024 ? o->bounces + 1 : 1024);
