@@ -2739,6 +2739,20 @@ static inline void rt__run_team(rt__team *team, int target)
     }
 }
 
+/* A chunk has a thousand rays or so, and there are some for each thread, if possible. */
+static inline void rt__share_out(rt__team *team, int count)
+{
+    const rt__job *job = team->job;
+    const int bounces = job->options.bounces, each = count / (4 * team->threads);
+    int pixels = bounces < 1024 ? 1024 / (bounces + 1) : 1;
+    pixels = pixels < RT__CHUNK ? pixels : RT__CHUNK;
+    pixels = pixels < each ? pixels : each;
+    pixels = pixels > job->together ? pixels : job->together;
+    team->chunk = pixels - pixels % job->together; /* whole packets */
+    team->chunks = (count - 1) / team->chunk + 1;
+    team->threads = team->chunks < team->threads ? team->chunks : team->threads;
+}
+
 static inline rt_status rt__run(const rt__job *job)
 {
     const rt_options *o = &job->options;
@@ -2760,14 +2774,7 @@ static inline rt_status rt__run(const rt__job *job)
     team.wanted = samples;
     team.asked_once = !o->progress;
     team.start = team.since = rt__seconds();
-    /* a chunk has a thousand rays or so, and there are some for each thread, if possible */
-    const int pixels = 1024 / (o->bounces < 1024 ? o->bounces + 1 : 1024);
-    const int shared = count / (4 * team.threads),
-              fewer = shared < pixels ? shared : pixels;
-    const int packets = (fewer < RT__CHUNK ? fewer : RT__CHUNK) / job->together;
-    team.chunk = job->together * (packets > 0 ? packets : 1);
-    team.chunks = (count - 1) / team.chunk + 1;
-    team.threads = team.chunks < team.threads ? team.chunks : team.threads;
+    rt__share_out(&team, count);
 
     team.recorded = (int *)RT_MALLOC((size_t)team.chunks * sizeof *team.recorded);
     team.writing = (rt__mutex *)RT_MALLOC((size_t)team.threads * sizeof *team.writing);
