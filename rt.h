@@ -150,7 +150,7 @@
 #endif
 #if defined(__TINYC__) && __TINYC__ <= 927
 #error                                                                                   \
-    "rt.h: another compiler please: tcc 0.9.27 mixes up three floats that go to a function."
+    "rt.h: another compiler please: tcc 0.9.27 mixes up floats that go to a function."
 #endif
 #ifdef _M_FP_FAST
 #error "rt.h: without /fp:fast please, with /fp:precise: NaN tests would go."
@@ -310,7 +310,8 @@ static inline rt_dvec3 rt_dnormalize(rt_dvec3 v)
     return rt_dscale(v, 1.0 / length);
 }
 
-/* The same for floats. In double, because the square of 1e20 does not fit into a float. */
+/* The same for floats. In double, because the square of 1e20 does not fit into a float.
+ * */
 static inline rt_vec3 rt_normalize(rt_vec3 v)
 {
     return rt_to_float(rt_dnormalize(rt_to_double(v)));
@@ -482,7 +483,8 @@ static inline rt__film rt__film_of(const rt_camera *camera, int width, int heigh
     film.forward = rt_dnormalize(direction);
     if (rt_ddot(film.forward, film.forward) == 0.0)
         return film;
-    /* the product of two floats is exact in double: right is right, however small it is */
+    /* the product of two floats is exact in double: right is right, however small it is
+     * */
     film.right = rt_dnormalize(rt_dcross(direction, up));
     if (rt_ddot(film.right, film.right) == 0.0) {
         rt_vec3 a, b;
@@ -518,8 +520,8 @@ static inline rt_ray rt__film_ray(const rt__film *film, float x, float y)
  * normalised. y is subtracted because rows count downwards. However close up is to the
  * direction, the three are perpendicular within 1e-6; where it is parallel to it, or not
  * finite, some perpendicular takes its place. The angle of view is right to 1e-5 degrees.
- * A width or height below 1, an angle out of range or a direction that is not finite gives
- * direction (0,0,0): a ray that hits nothing. */
+ * A width or height below 1, an angle out of range or a direction that is not finite
+ * gives direction (0,0,0): a ray that hits nothing. */
 #ifndef rt_camera_ray
 static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int height,
                                    float x, float y)
@@ -567,10 +569,10 @@ typedef struct rt_hit {
  * difference of two numbers near 1e10, of which a float keeps seven digits: none is left.
  * Where the sphere is tiny and far away, b^2 - a c is such a difference, and double does
  * not help either. But the same number is a (R^2 - |l|^2), with l the way from the centre
- * to the nearest point of the ray, l = f - (b/a) u. That subtracts vectors, each component
- * for itself, and finds a sphere from 1e12 radii away (E. Haines et al., "Precision
- * improvements for ray/sphere intersection", Ray Tracing Gems, 2019).
- * All comparisons are so written that NaN is a miss. */
+ * to the nearest point of the ray, l = f - (b/a) u. That subtracts vectors, each
+ * component for itself, and finds a sphere from 1e12 radii away (E. Haines et al.,
+ * "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019). All
+ * comparisons are so written that NaN is a miss. */
 #ifndef rt_hit_sphere
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
                                      float t_max)
@@ -752,8 +754,8 @@ typedef struct rt__slabs {
 } rt__slabs;
 
 /* way / u, at most FLT_MAX: what is farther away is as good as infinitely far, and a
- * division that overflows would stop a program that traps such things. Below 1e-22 it may,
- * since no way is longer than 1e16. */
+ * division that overflows would stop a program that traps such things. Below 1e-22 it
+ * may, since no way is longer than 1e16. */
 static inline float rt__quotient(float way, float u)
 {
     if (fabsf(u) < 1e-22f && fabsf(way) > fabsf(u) * FLT_MAX)
@@ -879,8 +881,8 @@ static inline float rt__pull(float p, float origin)
     return (pulled > origin) == (p > origin) ? pulled : origin;
 }
 
-/* The hit of the shape with this number; of a sphere at t, or wherever it is if that is 0.
- * Of a box, P is pulled back along the face. */
+/* The hit of the shape with this number; of a sphere at t, or wherever it is if that is
+ * 0. Of a box, P is pulled back along the face. */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                  double t, rt_hit *hit)
 {
@@ -961,8 +963,8 @@ static inline bool rt_visible(const rt_scene *scene, rt_vec3 point, rt_vec3 norm
 }
 #endif
 
-/* Who wants to look at the clock from time to time, also during a path that takes long: see
- * rt_render. */
+/* Who wants to look at the clock from time to time, also during a path that takes long:
+ * see rt_render. */
 typedef struct rt_watch {
     int ticks; /* look when they have gone by */
     void (*look)(struct rt_watch *watch);
@@ -1113,16 +1115,17 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
 }
 #endif
 
-/* Is nothing left of the light, at least nothing that a float can hold with all digits? (A
- * product may stick at the smallest number of all and never become 0: of 1.4e-45 . 0.8 that
- * is the nearest.) */
+/* Is nothing left of the light, at least nothing that a float can hold with all digits?
+ * (A product may stick at the smallest number of all and never become 0: of 1.4e-45 . 0.8
+ * that is the nearest.) */
 static inline bool rt__is_spent(rt_vec3 throughput)
 {
     return throughput.x < FLT_MIN && throughput.y < FLT_MIN && throughput.z < FLT_MIN;
 }
 
 /* Russian roulette: with which probability a path goes on that has this throughput. The
- * less there is to expect, the sooner it ends; and it ends in a room of white walls, too. */
+ * less there is to expect, the sooner it ends; and it ends in a room of white walls, too.
+ * */
 static inline float rt__chance(rt_vec3 throughput)
 {
     float most = throughput.x > throughput.y ? throughput.x : throughput.y;
@@ -1245,8 +1248,8 @@ typedef struct rt_bvh {
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
-/* 1/u, but finite for u = 0: so large that what is outside stays outside. In double, where
- * no product of it overflows. */
+/* 1/u, but finite for u = 0: so large that what is outside stays outside. In double,
+ * where no product of it overflows. */
 static inline rt_dvec3 rt__inverse(rt_vec3 u)
 {
     const rt_dvec3 v = rt_to_double(u);
@@ -1274,8 +1277,8 @@ static inline void rt__trim(float low, float high, float origin, double inverse,
 /* Which of the node's boxes the ray meets with 0 < t < t_max: bit k of the result for box
  * k, and t[k], where it enters it. The slabs of chapter 3, with products in place of
  * quotients: it may say yes to a ray that misses by a rounding, but never no to one that
- * hits: t may be too small by four roundings of a float, which is more than what the chapters
- * do wrong. */
+ * hits: t may be too small by four roundings of a float, which is more than what the
+ * chapters do wrong. */
 static inline unsigned rt__enter(const rt_bvh_node *node, const rt_ray *ray,
                                  const rt_dvec3 *inverse, float t_max, float *t)
 {
@@ -1330,10 +1333,10 @@ static inline float rt__meet_shape(const rt_scene *scene, int number, const rt_r
  * the upper half: floats above 0 are in the same order as their bits. */
 typedef uint64_t rt__item;
 
-/* So many of them may wait, and never more do. Each node that the search enters puts up to
- * eight on the stack, of which one has been taken when it enters the next, further down. So
- * at the end of a way down through L levels there are 7 L + 1 at most, and rt_build_bvh
- * makes trees of at most RT__LEVELS levels. */
+/* So many of them may wait, and never more do. Each node that the search enters puts up
+ * to eight on the stack, of which one has been taken when it enters the next, further
+ * down. So at the end of a way down through L levels there are 7 L + 1 at most, and
+ * rt_build_bvh makes trees of at most RT__LEVELS levels. */
 enum { RT__LEVELS = 32, RT__WAITING = 7 * RT__LEVELS + 1 };
 
 static inline rt__item rt__make_item(float t, int inside)
@@ -1597,10 +1600,10 @@ typedef rt_vec3 rt_pixel_function(const void *context, float x, float y, rt_rng 
  * of the call; build it yourself if you render many shapes again and again.
  *
  * A mean of floats drifts: where most samples are dark and few bright, each dark one is
- * rounded the same way, and of 2^18 samples the mean may be wrong by 0.5 %, of 2^25 by 5 %.
- * With image->rest it is right to 1e-6, at 12 bytes more for each pixel, 24 with half. A
- * call for more than 4096 samples borrows that much from RT_MALLOC while it runs; lend it
- * if so many are to come in several calls.
+ * rounded the same way, and of 2^18 samples the mean may be wrong by 0.5 %, of 2^25 by 5
+ * %. With image->rest it is right to 1e-6, at 12 bytes more for each pixel, 24 with half.
+ * A call for more than 4096 samples borrows that much from RT_MALLOC while it runs; lend
+ * it if so many are to come in several calls.
  *
  * RT_OK when all samples are done, or the wanted error is reached, or the time is over.
  * RT_CANCELLED if progress returned false before that: the image holds what was done by
@@ -1719,8 +1722,8 @@ RTDEF const char *rt_status_text(rt_status status);
 
 /* ---- for rt_trace_pixel ---------------------------------------------------------- */
 
-/* The number of the shape that was hit; a routine of your own need not know it, so then it
- * is the one that has the material. */
+/* The number of the shape that was hit; a routine of your own need not know it, so then
+ * it is the one that has the material. */
 static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
 {
 #ifdef rt_intersect
@@ -2153,9 +2156,9 @@ static inline int rt__split(const rt__bounds *bounds, int *order, int count)
     return left;
 }
 
-/* Cut a group into up to eight: always the one that costs most, or in halves, the one with
- * the most shapes: then none of the eight has more than an eighth of them, rounded up.
- * Returns how many. */
+/* Cut a group into up to eight: always the one that costs most, or in halves, the one
+ * with the most shapes: then none of the eight has more than an eighth of them, rounded
+ * up. Returns how many. */
 static inline int rt__split_in_eight(const rt__bounds *bounds, int *order, bool in_halves,
                                      rt__group *groups)
 {
@@ -2197,13 +2200,14 @@ static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
 }
 
 /* Which level of the tree is the first to be cut in halves. Above it the cheapest cut may
- * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level there
- * are less than 2^31 shapes in a node, in each of the next ten at most an eighth as many:
- * 2^28, 2^25 ... 2. Two shapes need no further level, so there are 21 + 11 levels. */
+ * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level
+ * there are less than 2^31 shapes in a node, in each of the next ten at most an eighth as
+ * many: 2^28, 2^25 ... 2. Two shapes need no further level, so there are 21 + 11 levels.
+ * */
 enum { RT__HALVES = RT__LEVELS - 11 };
 
-/* All nodes. Groups that wait to become nodes are on a stack, never more of them than boxes
- * on that of rt__search. */
+/* All nodes. Groups that wait to become nodes are on a stack, never more of them than
+ * boxes on that of rt__search. */
 static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *order,
                                    int count)
 {
@@ -2346,8 +2350,8 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
 
 typedef struct rt__job rt__job;
 
-/* Trace sample number sample of the pixels from first to last - 1 into values; returns how
- * many rays it took. */
+/* Trace sample number sample of the pixels from first to last - 1 into values; returns
+ * how many rays it took. */
 typedef uint64_t rt__step(const rt__job *job, int sample, int first, int last,
                           rt_watch *watch, rt_vec3 *values);
 
@@ -2505,8 +2509,8 @@ typedef char rt__mutex;
 #define rt__destroy_lock(mutex) (void)(mutex)
 #endif
 
-/* Pixels with neighbouring numbers, and some samples of each: what a thread does before it
- * asks for more. */
+/* Pixels with neighbouring numbers, and some samples of each: what a thread does before
+ * it asks for more. */
 enum { RT__CHUNK = 128 };
 typedef struct rt__task {
     int chunk;    /* which pixels */
@@ -2532,11 +2536,11 @@ typedef struct rt__team {
     bool asked_once, cancelled, time_over;
 } rt__team;
 
-/* The next task, if there is one; *task was the one before of the same thread, and took so
- * many rays. Tasks are given out in order, and what was given out is finished: so when a
- * picture is stopped, all pixels up to some number have one sample more than the others.
- * A task is one sample of its pixels. Of small pictures it is several, lest it be too short;
- * then all pixels get them before anything stops. */
+/* The next task, if there is one; *task was the one before of the same thread, and took
+ * so many rays. Tasks are given out in order, and what was given out is finished: so when
+ * a picture is stopped, all pixels up to some number have one sample more than the
+ * others. A task is one sample of its pixels. Of small pictures it is several, lest it be
+ * too short; then all pixels get them before anything stops. */
 static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
 {
     rt__task *last = &team->last;
@@ -2568,8 +2572,8 @@ static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
     return more;
 }
 
-/* May a thread record the task that it has traced? If all samples before are recorded and,
- * so that a picture can be stopped before much is done, progress was asked once. */
+/* May a thread record the task that it has traced? If all samples before are recorded
+ * and, so that a picture can be stopped before much is done, progress was asked once. */
 static inline bool rt__may_record(rt__team *team, const rt__task *task, int thread)
 {
     rt__lock(&team->queue);
@@ -2618,10 +2622,10 @@ static inline float rt__part(rt__team *team, double now)
     return part < 0.0f ? 0.0f : part < 1.0f ? part : 1.0f;
 }
 
-/* Now and then the thread that called rt_render looks up from its work: is the time over, and
- * is it time to ask progress? While progress reads the image, it holds the locks of all
- * others. They go on tracing and wait only when they want to write: nobody waits for the
- * slowest before the very end. */
+/* Now and then the thread that called rt_render looks up from its work: is the time over,
+ * and is it time to ask progress? While progress reads the image, it holds the locks of
+ * all others. They go on tracing and wait only when they want to write: nobody waits for
+ * the slowest before the very end. */
 static inline void rt__look_up(rt_watch *watch)
 {
     rt__team *team = (rt__team *)watch;
@@ -2651,9 +2655,9 @@ static inline void rt__look_up(rt_watch *watch)
     }
 }
 
-/* What one thread does, from the first task to the last. Packets compute what some of their
- * lanes do not need, and divide by zero there: a program that traps such things, to find
- * its own, does not stop for them, and does not see their flags. */
+/* What one thread does, from the first task to the last. Packets compute what some of
+ * their lanes do not need, and divide by zero there: a program that traps such things, to
+ * find its own, does not stop for them, and does not see their flags. */
 static inline void rt__work(rt__team *team, int thread)
 {
 #ifdef RT__PACKETS
