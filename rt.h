@@ -149,8 +149,7 @@
 #error "rt.h: without -ffast-math, -Ofast, -ffinite-math-only please: NaN tests would go."
 #endif
 #if defined(__TINYC__) && __TINYC__ <= 927
-#error                                                                                   \
-    "rt.h: another compiler please: tcc 0.9.27 mixes up floats that go to a function."
+#error "rt.h: not with tcc 0.9.27, please: it mixes up numbers given to functions."
 #endif
 #ifdef _M_FP_FAST
 #error "rt.h: without /fp:fast please, with /fp:precise: NaN tests would go."
@@ -310,8 +309,7 @@ static inline rt_dvec3 rt_dnormalize(rt_dvec3 v)
     return rt_dscale(v, 1.0 / length);
 }
 
-/* The same for floats. In double, because the square of 1e20 does not fit into a float.
- * */
+/* The same for floats. In double, because the square of 1e20 does not fit a float. */
 static inline rt_vec3 rt_normalize(rt_vec3 v)
 {
     return rt_to_float(rt_dnormalize(rt_to_double(v)));
@@ -483,8 +481,7 @@ static inline rt__film rt__film_of(const rt_camera *camera, int width, int heigh
     film.forward = rt_dnormalize(direction);
     if (rt_ddot(film.forward, film.forward) == 0.0)
         return film;
-    /* the product of two floats is exact in double: right is right, however small it is
-     * */
+    /* products of two floats are exact in double: so is right, however short it is */
     film.right = rt_dnormalize(rt_dcross(direction, up));
     if (rt_ddot(film.right, film.right) == 0.0) {
         rt_vec3 a, b;
@@ -1124,8 +1121,7 @@ static inline bool rt__is_spent(rt_vec3 throughput)
 }
 
 /* Russian roulette: with which probability a path goes on that has this throughput. The
- * less there is to expect, the sooner it ends; and it ends in a room of white walls, too.
- * */
+ * less there is to expect, the sooner it ends; and it does end in a white room. */
 static inline float rt__chance(rt_vec3 throughput)
 {
     float most = throughput.x > throughput.y ? throughput.x : throughput.y;
