@@ -687,8 +687,8 @@ static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
 
 /* The nearest hit of the ray in the scene: ask every shape for a t that is smaller than
  * the smallest so far, and the last one that had it for point and normal. Of two at
- * exactly the same distance the first wins, spheres before boxes. Returns false, and
- * leaves *hit alone, if there is none. */
+ * exactly the same distance the first wins, spheres before boxes; hit->shape is its
+ * number. Returns false, and leaves *hit alone, if there is none. */
 #ifndef rt_intersect
 static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
 {
@@ -2197,9 +2197,8 @@ static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
 
 /* Which level of the tree is the first to be cut in halves. Above it the cheapest cut may
  * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level
- * there are less than 2^31 shapes in a node, in each of the next ten at most an eighth as
- * many: 2^28, 2^25 ... 2. Two shapes need no further level, so there are 21 + 11 levels.
- * */
+ * a node has less than 2^31 shapes, on each of the next ten at most an eighth as many:
+ * 2^28, 2^25 ... 2. Two shapes need no further level, so there are 21 + 11 levels. */
 enum { RT__HALVES = RT__LEVELS - 11 };
 
 /* All nodes. Groups that wait to become nodes are on a stack, never more of them than
