@@ -694,25 +694,25 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
 {
     if (scene->bvh)
         return rt__intersect_bvh(scene, ray, hit); /* the same answer, sooner */
-    int nearest = -1;
-    double nearest_t = 0.0;
+    int best = -1;
+    double best_t = 0.0;
     float t_max = FLT_MAX;
     for (int i = 0; i < scene->sphere_count; i++) {
         const double t = rt__meet_sphere(&scene->spheres[i], ray, t_max);
         if (t > 0.0) {
             t_max = (float)t;
-            nearest_t = t;
-            nearest = i;
+            best_t = t;
+            best = i;
         }
     }
     for (int i = 0; i < scene->box_count; i++) {
         const float t = rt__meet_box(&scene->boxes[i], ray, t_max);
         if (t > 0.0f) {
             t_max = t;
-            nearest = scene->sphere_count + i;
+            best = scene->sphere_count + i;
         }
     }
-    return nearest >= 0 && rt__hit_shape(scene, nearest, ray, nearest_t, hit);
+    return best >= 0 && rt__hit_shape(scene, best, ray, best_t, hit);
 }
 #endif
 
