@@ -2674,16 +2674,9 @@ static inline void rt__look_up(rt_watch *watch)
     }
 }
 
-/* What one thread does, from the first task to the last. Packets compute what some of
- * their lanes do not need, and divide by zero there: a program that traps such things, to
- * find its own, does not stop for them, and does not see their flags. */
+/* What one thread does, from the first task to the last. */
 static inline void rt__work(rt__team *team, int thread)
 {
-#ifdef RT__PACKETS
-    fenv_t environment;
-    if (team->job->together > 1)
-        feholdexcept(&environment);
-#endif
     const rt__job *job = team->job;
     rt_image *image = job->image;
     const int count = image->width * image->height;
@@ -2714,10 +2707,22 @@ static inline void rt__work(rt__team *team, int thread)
     if (watch)
         while (!rt__count_samples(team)) /* the others have not finished theirs */
             watch->look(watch);
+}
+
+/* Packets compute what some of their lanes do not need, and divide by zero there: a program
+ * that traps such things, to find its own, does not stop for them, nor see their flags. */
+static inline void rt__work_quietly(rt__team *team, int thread)
+{
 #ifdef RT__PACKETS
-    if (team->job->together > 1)
+    if (team->job->together > 1) {
+        fenv_t environment;
+        feholdexcept(&environment);
+        rt__work(team, thread);
         fesetenv(&environment);
+        return;
+    }
 #endif
+    rt__work(team, thread);
 }
 
 /* Give out tasks up to the sample team->end and wait until they are done. */
@@ -2733,9 +2738,9 @@ static inline void rt__work_together(rt__team *team)
         team->recorded[k] = image->samples + (k <= team->last.chunk ? 1 : 0);
 #ifdef _OPENMP
 #pragma omp parallel num_threads(team->threads)
-    rt__work(team, omp_get_thread_num());
+    rt__work_quietly(team, omp_get_thread_num());
 #else
-    rt__work(team, 0);
+    rt__work_quietly(team, 0);
 #endif
     rt__count_samples(team);
 }
