@@ -457,8 +457,7 @@ typedef struct rt__film {
  *     tan x = x / (1 - x^2 / (3 - x^2 / (5 - ...))),
  *
  * from 90 degrees on of the other angle of the right-angled triangle, and 1 over that.
- * Within 1e-13, and the same on every machine, which libm's tan is not. J. Lambert, 1761.
- * */
+ * Within 1e-13, and the same everywhere, which libm's tan is not. J. Lambert, 1761. */
 static inline double rt__tan_half(float degrees)
 {
     const bool narrow = degrees < 90.0f;
