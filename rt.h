@@ -149,8 +149,7 @@
 #error "rt.h: without -ffast-math, -Ofast, -ffinite-math-only please: NaN tests would go."
 #endif
 #if defined(__TINYC__) && __TINYC__ <= 927
-#error                                                                                   \
-    "rt.h: another compiler please: tcc 0.9.27 mixes up three floats that go to a function."
+#error "rt.h: not with tcc 0.9.27, please: it mixes up numbers given to functions."
 #endif
 #ifdef _M_FP_FAST
 #error "rt.h: without /fp:fast please, with /fp:precise: NaN tests would go."
@@ -310,7 +309,7 @@ static inline rt_dvec3 rt_dnormalize(rt_dvec3 v)
     return rt_dscale(v, 1.0 / length);
 }
 
-/* The same for floats. In double, because the square of 1e20 does not fit into a float. */
+/* The same for floats. In double, because the square of 1e20 does not fit a float. */
 static inline rt_vec3 rt_normalize(rt_vec3 v)
 {
     return rt_to_float(rt_dnormalize(rt_to_double(v)));
@@ -482,7 +481,7 @@ static inline rt__film rt__film_of(const rt_camera *camera, int width, int heigh
     film.forward = rt_dnormalize(direction);
     if (rt_ddot(film.forward, film.forward) == 0.0)
         return film;
-    /* the product of two floats is exact in double: right is right, however small it is */
+    /* products of two floats are exact in double: so is right, however short it is */
     film.right = rt_dnormalize(rt_dcross(direction, up));
     if (rt_ddot(film.right, film.right) == 0.0) {
         rt_vec3 a, b;
@@ -518,8 +517,8 @@ static inline rt_ray rt__film_ray(const rt__film *film, float x, float y)
  * normalised. y is subtracted because rows count downwards. However close up is to the
  * direction, the three are perpendicular within 1e-6; where it is parallel to it, or not
  * finite, some perpendicular takes its place. The angle of view is right to 1e-5 degrees.
- * A width or height below 1, an angle out of range or a direction that is not finite gives
- * direction (0,0,0): a ray that hits nothing. */
+ * A width or height below 1, an angle out of range or a direction that is not finite
+ * gives direction (0,0,0): a ray that hits nothing. */
 #ifndef rt_camera_ray
 static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int height,
                                    float x, float y)
@@ -567,10 +566,10 @@ typedef struct rt_hit {
  * difference of two numbers near 1e10, of which a float keeps seven digits: none is left.
  * Where the sphere is tiny and far away, b^2 - a c is such a difference, and double does
  * not help either. But the same number is a (R^2 - |l|^2), with l the way from the centre
- * to the nearest point of the ray, l = f - (b/a) u. That subtracts vectors, each component
- * for itself, and finds a sphere from 1e12 radii away (E. Haines et al., "Precision
- * improvements for ray/sphere intersection", Ray Tracing Gems, 2019).
- * All comparisons are so written that NaN is a miss. */
+ * to the nearest point of the ray, l = f - (b/a) u. That subtracts vectors, each
+ * component for itself, and finds a sphere from 1e12 radii away (E. Haines et al.,
+ * "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019). All
+ * comparisons are so written that NaN is a miss. */
 #ifndef rt_hit_sphere
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
                                      float t_max)
@@ -688,32 +687,32 @@ static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
 
 /* The nearest hit of the ray in the scene: ask every shape for a t that is smaller than
  * the smallest so far, and the last one that had it for point and normal. Of two at
- * exactly the same distance the first wins, spheres before boxes. Returns false, and
- * leaves *hit alone, if there is none. */
+ * exactly the same distance the first wins, spheres before boxes; hit->shape is its
+ * number. Returns false, and leaves *hit alone, if there is none. */
 #ifndef rt_intersect
 static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
 {
     if (scene->bvh)
         return rt__intersect_bvh(scene, ray, hit); /* the same answer, sooner */
-    int nearest = -1;
-    double nearest_t = 0.0;
+    int best = -1;
+    double best_t = 0.0;
     float t_max = FLT_MAX;
     for (int i = 0; i < scene->sphere_count; i++) {
         const double t = rt__meet_sphere(&scene->spheres[i], ray, t_max);
         if (t > 0.0) {
             t_max = (float)t;
-            nearest_t = t;
-            nearest = i;
+            best_t = t;
+            best = i;
         }
     }
     for (int i = 0; i < scene->box_count; i++) {
         const float t = rt__meet_box(&scene->boxes[i], ray, t_max);
         if (t > 0.0f) {
             t_max = t;
-            nearest = scene->sphere_count + i;
+            best = scene->sphere_count + i;
         }
     }
-    return nearest >= 0 && rt__hit_shape(scene, nearest, ray, nearest_t, hit);
+    return best >= 0 && rt__hit_shape(scene, best, ray, best_t, hit);
 }
 #endif
 
@@ -752,8 +751,8 @@ typedef struct rt__slabs {
 } rt__slabs;
 
 /* way / u, at most FLT_MAX: what is farther away is as good as infinitely far, and a
- * division that overflows would stop a program that traps such things. Below 1e-22 it may,
- * since no way is longer than 1e16. */
+ * division that overflows would stop a program that traps such things. Below 1e-22 it
+ * may, since no way is longer than 1e16. */
 static inline float rt__quotient(float way, float u)
 {
     if (fabsf(u) < 1e-22f && fabsf(way) > fabsf(u) * FLT_MAX)
@@ -879,8 +878,8 @@ static inline float rt__pull(float p, float origin)
     return (pulled > origin) == (p > origin) ? pulled : origin;
 }
 
-/* The hit of the shape with this number; of a sphere at t, or wherever it is if that is 0.
- * Of a box, P is pulled back along the face. */
+/* The hit of the shape with this number; of a sphere at t, or wherever it is if that is
+ * 0. Of a box, P is pulled back along the face. */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                  double t, rt_hit *hit)
 {
@@ -961,8 +960,8 @@ static inline bool rt_visible(const rt_scene *scene, rt_vec3 point, rt_vec3 norm
 }
 #endif
 
-/* Who wants to look at the clock from time to time, also during a path that takes long: see
- * rt_render. */
+/* Who wants to look at the clock from time to time, also during a path that takes long:
+ * see rt_render. */
 typedef struct rt_watch {
     int ticks; /* look when they have gone by */
     void (*look)(struct rt_watch *watch);
@@ -1113,16 +1112,16 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
 }
 #endif
 
-/* Is nothing left of the light, at least nothing that a float can hold with all digits? (A
- * product may stick at the smallest number of all and never become 0: of 1.4e-45 . 0.8 that
- * is the nearest.) */
+/* Is nothing left of the light, at least nothing that a float can hold with all digits?
+ * (A product may stick at the smallest number of all and never become 0: of 1.4e-45 . 0.8
+ * that is the nearest.) */
 static inline bool rt__is_spent(rt_vec3 throughput)
 {
     return throughput.x < FLT_MIN && throughput.y < FLT_MIN && throughput.z < FLT_MIN;
 }
 
 /* Russian roulette: with which probability a path goes on that has this throughput. The
- * less there is to expect, the sooner it ends; and it ends in a room of white walls, too. */
+ * less there is to expect, the sooner it ends; and it does end in a white room. */
 static inline float rt__chance(rt_vec3 throughput)
 {
     float most = throughput.x > throughput.y ? throughput.x : throughput.y;
@@ -1245,25 +1244,27 @@ typedef struct rt_bvh {
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
-/* 1/u, but finite for u = 0: so large that what is outside stays outside. In double, where
- * no product of it overflows. */
-static inline rt_dvec3 rt__inverse(rt_vec3 u)
+/* 1/u, but finite for u = 0: so large that what is outside stays outside. */
+static inline float rt__inverse(float u)
 {
-    const rt_dvec3 v = rt_to_double(u);
-    return rt_dvec(v.x != 0.0 ? 1.0 / v.x : 1e200, v.y != 0.0 ? 1.0 / v.y : 1e200,
-                   v.z != 0.0 ? 1.0 / v.z : 1e200);
-}
-
-/* That as a float, for packets: no larger than 1e37. */
-static inline float rt__moderate(double inverse)
-{
-    return inverse > 1e37 ? 1e37f : inverse < -1e37 ? -1e37f : (float)inverse;
+    return fabsf(u) > 1e-37f ? 1.0f / u : u < 0.0f ? -1e37f : 1e37f;
 }
 
 /* The part of a ray between two planes of an axis, low and high: cut t_in, t_out down. */
-static inline void rt__trim(float low, float high, float origin, double inverse,
-                            double *t_in, double *t_out)
+static inline void rt__trim(float low, float high, float origin, float inverse,
+                            float *t_in, float *t_out)
 {
+    const float a = (low - origin) * inverse, b = (high - origin) * inverse;
+    const float in = a < b ? a : b, out = a < b ? b : a;
+    *t_in = in > *t_in ? in : *t_in;
+    *t_out = out < *t_out ? out : *t_out;
+}
+
+/* The same in double, where nothing overflows. */
+static inline void rt__trim_exactly(float low, float high, float origin, float direction,
+                                    double *t_in, double *t_out)
+{
+    const double inverse = direction != 0.0f ? 1.0 / (double)direction : 1e200;
     const double a = ((double)low - (double)origin) * inverse;
     const double b = ((double)high - (double)origin) * inverse;
     const double in = a < b ? a : b, out = a < b ? b : a;
@@ -1271,32 +1272,52 @@ static inline void rt__trim(float low, float high, float origin, double inverse,
     *t_out = out < *t_out ? out : *t_out;
 }
 
-/* Which of the node's boxes the ray meets with 0 < t < t_max: bit k of the result for box
- * k, and t[k], where it enters it. The slabs of chapter 3, with products in place of
- * quotients: it may say yes to a ray that misses by a rounding, but never no to one that
- * hits: t may be too small by four roundings of a float, which is more than what the chapters
- * do wrong. */
-static inline unsigned rt__enter(const rt_bvh_node *node, const rt_ray *ray,
-                                 const rt_dvec3 *inverse, float t_max, float *t)
+/* rt__enter for a ray that is parallel to an axis, or almost: there floats overflow, which
+ * would stop a program that traps such things. */
+static inline unsigned rt__enter_parallel(const rt_bvh_node *node, const rt_ray *ray,
+                                          float t_max, float *t)
 {
-    const rt_vec3 o = ray->origin;
+    const rt_vec3 o = ray->origin, u = ray->direction;
     unsigned result = 0;
     for (int k = 0; k < node->count; k++) {
         double t_in = 0.0, t_out = (double)t_max;
-        rt__trim(node->min_x[k], node->max_x[k], o.x, inverse->x, &t_in, &t_out);
-        rt__trim(node->min_y[k], node->max_y[k], o.y, inverse->y, &t_in, &t_out);
-        rt__trim(node->min_z[k], node->max_z[k], o.z, inverse->z, &t_in, &t_out);
+        rt__trim_exactly(node->min_x[k], node->max_x[k], o.x, u.x, &t_in, &t_out);
+        rt__trim_exactly(node->min_y[k], node->max_y[k], o.y, u.y, &t_in, &t_out);
+        rt__trim_exactly(node->min_z[k], node->max_z[k], o.z, u.z, &t_in, &t_out);
         t_in *= 1.0 - 4.0 * (double)FLT_EPSILON;
-        if (!(t_in <= t_out))
-            continue;
-        t[k] = (float)t_in;
-        result |= 1u << k;
+        if (t_in <= t_out) {
+            t[k] = (float)t_in;
+            result |= 1u << k;
+        }
+    }
+    return result;
+}
+
+/* Which of the node's boxes the ray meets with 0 < t < t_max: bit k of the result for box
+ * k, and t[k], where it enters it. The slabs of chapter 3, with products in place of
+ * quotients: it may say yes to a ray that misses by a rounding, but never no to one that
+ * hits. The error is below 6 roundings: pbrt, section 6.8.2. */
+static inline unsigned rt__enter(const rt_bvh_node *node, const rt_ray *ray,
+                                 rt_vec3 inverse, float t_max, float *t)
+{
+    const rt_vec3 o = ray->origin;
+    unsigned result = 0;
+    if (fabsf(inverse.x) > 1e22f || fabsf(inverse.y) > 1e22f || fabsf(inverse.z) > 1e22f)
+        return rt__enter_parallel(node, ray, t_max, t);
+    for (int k = 0; k < node->count; k++) {
+        float t_in = 0.0f, t_out = t_max;
+        rt__trim(node->min_x[k], node->max_x[k], o.x, inverse.x, &t_in, &t_out);
+        rt__trim(node->min_y[k], node->max_y[k], o.y, inverse.y, &t_in, &t_out);
+        rt__trim(node->min_z[k], node->max_z[k], o.z, inverse.z, &t_in, &t_out);
+        t[k] = t_in * (1.0f - 4.0f * FLT_EPSILON);
+        if (t[k] <= t_out)
+            result |= 1u << k;
     }
     return result;
 }
 
 typedef unsigned rt__enter_function(const rt_bvh_node *node, const rt_ray *ray,
-                                    const rt_dvec3 *inverse, float t_max, float *t);
+                                    rt_vec3 inverse, float t_max, float *t);
 
 static inline bool rt__is_finite(rt_vec3 v)
 {
@@ -1330,10 +1351,10 @@ static inline float rt__meet_shape(const rt_scene *scene, int number, const rt_r
  * the upper half: floats above 0 are in the same order as their bits. */
 typedef uint64_t rt__item;
 
-/* So many of them may wait, and never more do. Each node that the search enters puts up to
- * eight on the stack, of which one has been taken when it enters the next, further down. So
- * at the end of a way down through L levels there are 7 L + 1 at most, and rt_build_bvh
- * makes trees of at most RT__LEVELS levels. */
+/* So many of them may wait, and never more do. Each node that the search enters puts up
+ * to eight on the stack, of which one has been taken when it enters the next, further
+ * down. So at the end of a way down through L levels there are 7 L + 1 at most, and
+ * rt_build_bvh makes trees of at most RT__LEVELS levels. */
 enum { RT__LEVELS = 32, RT__WAITING = 7 * RT__LEVELS + 1 };
 
 static inline rt__item rt__make_item(float t, int inside)
@@ -1360,14 +1381,16 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
     rt__item waiting[RT__WAITING];
     if (!rt__is_finite(ray->origin) || !rt__is_finite(ray->direction))
         return -1; /* else it would be asked of all shapes, in vain */
-    const rt_dvec3 inverse = rt__inverse(ray->direction);
+    const rt_vec3 inverse =
+        rt_vec(rt__inverse(ray->direction.x), rt__inverse(ray->direction.y),
+               rt__inverse(ray->direction.z));
     const rt_bvh_node *node = scene->bvh->nodes;
     float t[8];
     int best = -1, count = 0;
     for (;;) {
         const int before = count;
         rt__item first = UINT64_MAX;
-        for (unsigned in = enter(node, ray, &inverse, t_max, t); in != 0; in &= in - 1u) {
+        for (unsigned in = enter(node, ray, inverse, t_max, t); in != 0; in &= in - 1u) {
             const int k = rt__lowest(in);
             const rt__item item = rt__make_item(t[k], node->inside[k]);
             waiting[count++] = item > first ? item : first;
@@ -1597,10 +1620,10 @@ typedef rt_vec3 rt_pixel_function(const void *context, float x, float y, rt_rng 
  * of the call; build it yourself if you render many shapes again and again.
  *
  * A mean of floats drifts: where most samples are dark and few bright, each dark one is
- * rounded the same way, and of 2^18 samples the mean may be wrong by 0.5 %, of 2^25 by 5 %.
- * With image->rest it is right to 1e-6, at 12 bytes more for each pixel, 24 with half. A
- * call for more than 4096 samples borrows that much from RT_MALLOC while it runs; lend it
- * if so many are to come in several calls.
+ * rounded the same way, and of 2^18 samples the mean may be wrong by 0.5 %, of 2^25 by 5
+ * %. With image->rest it is right to 1e-6, at 12 bytes more for each pixel, 24 with half.
+ * A call for more than 4096 samples borrows that much from RT_MALLOC while it runs; lend
+ * it if so many are to come in several calls.
  *
  * RT_OK when all samples are done, or the wanted error is reached, or the time is over.
  * RT_CANCELLED if progress returned false before that: the image holds what was done by
@@ -1719,8 +1742,8 @@ RTDEF const char *rt_status_text(rt_status status);
 
 /* ---- for rt_trace_pixel ---------------------------------------------------------- */
 
-/* The number of the shape that was hit; a routine of your own need not know it, so then it
- * is the one that has the material. */
+/* The number of the shape that was hit; a routine of your own need not know it, so then
+ * it is the one that has the material. */
 static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
 {
 #ifdef rt_intersect
@@ -2153,9 +2176,9 @@ static inline int rt__split(const rt__bounds *bounds, int *order, int count)
     return left;
 }
 
-/* Cut a group into up to eight: always the one that costs most, or in halves, the one with
- * the most shapes: then none of the eight has more than an eighth of them, rounded up.
- * Returns how many. */
+/* Cut a group into up to eight: always the one that costs most, or in halves, the one
+ * with the most shapes: then none of the eight has more than an eighth of them, rounded
+ * up. Returns how many. */
 static inline int rt__split_in_eight(const rt__bounds *bounds, int *order, bool in_halves,
                                      rt__group *groups)
 {
@@ -2197,13 +2220,13 @@ static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
 }
 
 /* Which level of the tree is the first to be cut in halves. Above it the cheapest cut may
- * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level there
- * are less than 2^31 shapes in a node, in each of the next ten at most an eighth as many:
+ * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level
+ * a node has less than 2^31 shapes, on each of the next ten at most an eighth as many:
  * 2^28, 2^25 ... 2. Two shapes need no further level, so there are 21 + 11 levels. */
 enum { RT__HALVES = RT__LEVELS - 11 };
 
-/* All nodes. Groups that wait to become nodes are on a stack, never more of them than boxes
- * on that of rt__search. */
+/* All nodes. Groups that wait to become nodes are on a stack, never more of them than
+ * boxes on that of rt__search. */
 static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *order,
                                    int count)
 {
@@ -2346,8 +2369,8 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
 
 typedef struct rt__job rt__job;
 
-/* Trace sample number sample of the pixels from first to last - 1 into values; returns how
- * many rays it took. */
+/* Trace sample number sample of the pixels from first to last - 1 into values; returns
+ * how many rays it took. */
 typedef uint64_t rt__step(const rt__job *job, int sample, int first, int last,
                           rt_watch *watch, rt_vec3 *values);
 
@@ -2505,13 +2528,12 @@ typedef char rt__mutex;
 #define rt__destroy_lock(mutex) (void)(mutex)
 #endif
 
-/* Pixels with neighbouring numbers, and some samples of each: what a thread does before it
- * asks for more. */
+/* Pixels with neighbouring numbers, and some samples of each: what a thread does before
+ * it asks for more. */
 enum { RT__CHUNK = 128 };
 typedef struct rt__task {
     int chunk;    /* which pixels */
     int from, to; /* samples number from, from + 1 ... to - 1 */
-    bool ready;   /* all samples before are recorded */
 } rt__task;
 
 /* What the threads share. */
@@ -2530,14 +2552,14 @@ typedef struct rt__team {
     rt__task last;   /* the last task that was given out */
     int *recorded;   /* how many samples each chunk has in the image */
     double since;    /* when the samples of this task were begun */
-    bool cancelled, time_over;
+    bool asked_once, cancelled, time_over;
 } rt__team;
 
-/* The next task, if there is one; *task was the one before of the same thread, and took so
- * many rays. Tasks are given out in order, and what was given out is finished: so when a
- * picture is stopped, all pixels up to some number have one sample more than the others.
- * A task is one sample of its pixels. Of small pictures it is several, lest it be too short;
- * then all pixels get them before anything stops. */
+/* The next task, if there is one; *task was the one before of the same thread, and took
+ * so many rays. Tasks are given out in order, and what was given out is finished: so when
+ * a picture is stopped, all pixels up to some number have one sample more than the
+ * others. A task is one sample of its pixels. Of small pictures it is several, lest it be
+ * too short; then all pixels get them before anything stops. */
 static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
 {
     rt__task *last = &team->last;
@@ -2563,22 +2585,21 @@ static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
     }
     if (more) {
         last->chunk++;
-        last->ready = team->recorded[last->chunk] == last->from;
         *task = *last;
     }
     rt__unlock(&team->queue);
     return more;
 }
 
-/* Are all samples recorded that come before this task? */
-static inline bool rt__is_ready(rt__team *team, rt__task *task)
+/* May a thread record the task that it has traced? If all samples before are recorded
+ * and, so that a picture can be stopped before much is done, progress was asked once. */
+static inline bool rt__may_record(rt__team *team, const rt__task *task, int thread)
 {
-    if (!task->ready) {
-        rt__lock(&team->queue);
-        task->ready = team->recorded[task->chunk] == task->from;
-        rt__unlock(&team->queue);
-    }
-    return task->ready;
+    rt__lock(&team->queue);
+    const bool may =
+        team->recorded[task->chunk] == task->from && (thread == 0 || team->asked_once);
+    rt__unlock(&team->queue);
+    return may;
 }
 
 /* Samples and done of the image: what all chunks have, and how many at the beginning have
@@ -2620,10 +2641,10 @@ static inline float rt__part(rt__team *team, double now)
     return part < 0.0f ? 0.0f : part < 1.0f ? part : 1.0f;
 }
 
-/* Now and then the thread that called rt_render looks up from its work: is the time over, and
- * is it time to ask progress? While progress reads the image, it holds the locks of all
- * others. They go on tracing and wait only when they want to write: nobody waits for the
- * slowest before the very end. */
+/* Now and then the thread that called rt_render looks up from its work: is the time over,
+ * and is it time to ask progress? While progress reads the image, it holds the locks of
+ * all others. They go on tracing and wait only when they want to write: nobody waits for
+ * the slowest before the very end. */
 static inline void rt__look_up(rt_watch *watch)
 {
     rt__team *team = (rt__team *)watch;
@@ -2639,8 +2660,11 @@ static inline void rt__look_up(rt_watch *watch)
         go_on = o->progress(o->user, rt__part(team, now));
         for (int k = 1; k < team->threads; k++)
             rt__unlock(&team->writing[k]);
+        rt__lock(&team->queue);
+        team->asked_once = true;
+        rt__unlock(&team->queue);
         team->asked = rt__seconds();
-        team->interval = team->interval < 0.0075 ? 2.0 * team->interval + 0.0001 : 0.015;
+        team->interval = team->interval < 0.0075 ? 2.0 * team->interval + 5e-5 : 0.015;
     }
     if (over || !go_on) {
         rt__lock(&team->queue);
@@ -2650,16 +2674,9 @@ static inline void rt__look_up(rt_watch *watch)
     }
 }
 
-/* What one thread does, from the first task to the last. Packets compute what some of their
- * lanes do not need, and divide by zero there: a program that traps such things, to find
- * its own, does not stop for them, and does not see their flags. */
+/* What one thread does, from the first task to the last. */
 static inline void rt__work(rt__team *team, int thread)
 {
-#ifdef RT__PACKETS
-    fenv_t environment;
-    if (team->job->together > 1)
-        feholdexcept(&environment);
-#endif
     const rt__job *job = team->job;
     rt_image *image = job->image;
     const int count = image->width * image->height;
@@ -2677,7 +2694,7 @@ static inline void rt__work(rt__team *team, int thread)
         rays = 0;
         for (int sample = task.from; sample < task.to; sample++) {
             rays += job->step(job, sample, first, last, watch, values);
-            while (!rt__is_ready(team, &task))
+            while (sample == task.from && !rt__may_record(team, &task, thread))
                 rt__tick(watch);
             rt__lock(&team->writing[thread]);
             for (int i = first; i < last; i++)
@@ -2690,10 +2707,22 @@ static inline void rt__work(rt__team *team, int thread)
     if (watch)
         while (!rt__count_samples(team)) /* the others have not finished theirs */
             watch->look(watch);
+}
+
+/* Packets compute what some of their lanes do not need, and divide by zero there: a program
+ * that traps such things, to find its own, does not stop for them, nor see their flags. */
+static inline void rt__work_quietly(rt__team *team, int thread)
+{
 #ifdef RT__PACKETS
-    if (team->job->together > 1)
+    if (team->job->together > 1) {
+        fenv_t environment;
+        feholdexcept(&environment);
+        rt__work(team, thread);
         fesetenv(&environment);
+        return;
+    }
 #endif
+    rt__work(team, thread);
 }
 
 /* Give out tasks up to the sample team->end and wait until they are done. */
@@ -2709,9 +2738,9 @@ static inline void rt__work_together(rt__team *team)
         team->recorded[k] = image->samples + (k <= team->last.chunk ? 1 : 0);
 #ifdef _OPENMP
 #pragma omp parallel num_threads(team->threads)
-    rt__work(team, omp_get_thread_num());
+    rt__work_quietly(team, omp_get_thread_num());
 #else
-    rt__work(team, 0);
+    rt__work_quietly(team, 0);
 #endif
     rt__count_samples(team);
 }
@@ -2738,6 +2767,20 @@ static inline void rt__run_team(rt__team *team, int target)
     }
 }
 
+/* A chunk has a thousand rays or so, and there are some for each thread, if possible. */
+static inline void rt__share_out(rt__team *team, int count)
+{
+    const rt__job *job = team->job;
+    const int bounces = job->options.bounces, each = count / (4 * team->threads);
+    int pixels = bounces < 1024 ? 1024 / (bounces + 1) : 1;
+    pixels = pixels < RT__CHUNK ? pixels : RT__CHUNK;
+    pixels = pixels < each ? pixels : each;
+    pixels = pixels > job->together ? pixels : job->together;
+    team->chunk = pixels - pixels % job->together; /* whole packets */
+    team->chunks = (count - 1) / team->chunk + 1;
+    team->threads = team->chunks < team->threads ? team->chunks : team->threads;
+}
+
 static inline rt_status rt__run(const rt__job *job)
 {
     const rt_options *o = &job->options;
@@ -2757,15 +2800,9 @@ static inline rt_status rt__run(const rt__job *job)
     team.threads = rt_thread_count(o->threads);
     team.begun = image->samples + (double)image->done / count;
     team.wanted = samples;
+    team.asked_once = !o->progress;
     team.start = team.since = rt__seconds();
-    /* a chunk has a thousand rays or so, and there are some for each thread, if possible */
-    const int pixels = 1024 / (o->bounces < 1024 ? o->bounces + 1 : 1024);
-    const int shared = count / (4 * team.threads),
-              fewer = shared < pixels ? shared : pixels;
-    const int packets = (fewer < RT__CHUNK ? fewer : RT__CHUNK) / job->together;
-    team.chunk = job->together * (packets > 0 ? packets : 1);
-    team.chunks = (count - 1) / team.chunk + 1;
-    team.threads = team.chunks < team.threads ? team.chunks : team.threads;
+    rt__share_out(&team, count);
 
     team.recorded = (int *)RT_MALLOC((size_t)team.chunks * sizeof *team.recorded);
     team.writing = (rt__mutex *)RT_MALLOC((size_t)team.threads * sizeof *team.writing);
@@ -3642,10 +3679,8 @@ static inline void rt__set_lane(rt__hits *hits, int lane, const rt_hit *hit)
 #if RT__LANES <= 8
 /* rt__enter: now the lanes are the boxes of the node. */
 RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
-                                    const rt_dvec3 *exact, float t_max, float *t)
+                                    rt_vec3 inverse, float t_max, float *t)
 {
-    const rt_vec3 inverse =
-        rt_vec(rt__moderate(exact->x), rt__moderate(exact->y), rt__moderate(exact->z));
     unsigned result = 0;
     for (int k = 0; k < 8; k += RT__LANES) {
         rt__f3 min, max;

@@ -303,23 +303,23 @@ static void test_a_cancelled_picture_goes_on_to_the_same_bits(void **state)
     /* Stop at the first call, in the middle of the first sample, then go on and stop at the
      * second, and so on, on different numbers of threads. */
     (void)state;
-    rt_image whole = render(160, 120, with(5, 0)), image = new_image(160, 120);
+    rt_image whole = render(160, 120, with(20, 0)), image = new_image(160, 120);
     int stops = 0, within = 0;
-    for (int calls = 1; image.samples < 5; calls++) {
-        rt_options options = with(5 - image.samples, 1 + calls % 3);
+    for (int calls = 1; image.samples < 20; calls++) {
+        rt_options options = with(20 - image.samples, 1 + calls % 3);
         watch w = {0, calls, 0, 0};
         options.progress = watch_progress;
         options.user = &w;
         const rt_status status =
             rt_render(&scene_indirect, &room_camera, &options, &image);
-        assert_int_equal(status, image.samples < 5 ? RT_CANCELLED : RT_OK);
+        assert_int_equal(status, image.samples < 20 ? RT_CANCELLED : RT_OK);
         assert_in_range(image.done, 0, 160 * 120 - 1);
         stops += status == RT_CANCELLED;
         within += image.done > 0;
     }
     assert_true(stops >= 2);
     assert_true(within >= 1);
-    assert_int_equal(image.samples, 5);
+    assert_int_equal(image.samples, 20);
     assert_int_equal(image.done, 0);
     assert_int_equal(image.rays, whole.rays);
     assert_true(same_pixels(&whole, &image));

@@ -582,7 +582,7 @@ static rt_ray ray_in_the_room(rt_rng *rng)
 static long looked_at; /* nodes, and shapes whose box was met */
 
 static unsigned counting_enter(const rt_bvh_node *node, const rt_ray *ray,
-                               const rt_dvec3 *inverse, float t_max, float *t)
+                               rt_vec3 inverse, float t_max, float *t)
 {
     const unsigned met = rt__enter(node, ray, inverse, t_max, t);
     looked_at++;
