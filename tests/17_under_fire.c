@@ -991,7 +991,7 @@ static void check_progress(int kind, int bounces, int threads, int lanes, double
     double stopping = 0;
     const watcher w = render_slowly(s, threads, lanes, seconds, 1e-3, &stopping);
     rt_free_bvh(&s->bvh);
-    if (!(w.longest < 0.1 && w.calls > 3 && stopping < stop))
+    if (!(w.longest < 0.1 && w.calls > 1 && stopping < stop))
         fail_msg("%s, threads %d, lanes %d: asked %d times, once after %.3f s; stopped "
                  "after %.3f s",
                  slow_names[kind], threads, lanes, w.calls, w.longest, stopping);
@@ -1338,7 +1338,7 @@ static void test_a_sphere_is_hit_from_a_million_million_radii(void **state)
 {
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 109);
-    for (int e = 3; e <= 12; e++)
+    for (int e = 3; e <= 15; e++)
         for (int i = 0; i < 20000; i++) {
             const float distance = powf(10, (float)e),
                         radius = any_size(&rng, 1e-3f, 1e2f);
@@ -1348,7 +1348,13 @@ static void test_a_sphere_is_hit_from_a_million_million_radii(void **state)
             ray.origin = rt_scale(out, distance * s.radius);
             ray.direction = rt_scale(ray.origin, -1);
             rt_hit hit = untouched;
-            assert_true(rt_hit_sphere(&s, &ray, FLT_MAX, &hit));
+            const bool hits = rt_hit_sphere(&s, &ray, FLT_MAX, &hit);
+            if (e > 12) { /* if it is hit, then with a normal */
+                if (hits)
+                    assert_close(rt_length(hit.normal), 1, 1e-6);
+                continue;
+            }
+            assert_true(hits);
             assert_close(hit.t, 1, 1.1 / (double)distance + 1e-7);
             assert_close(rt_ddot(rt_to_double(hit.normal), rt_to_double(hit.normal)), 1,
                          2e-6);
@@ -1394,8 +1400,13 @@ static void check_grazing(uint32_t seed, int rays, int *hits)
     tree.bvh = &bvh;
     for (int i = 0; i < rays; i++) {
         const rt_sphere *s = &spheres[i % N];
-        const rt_vec3 out = random_direction(&rng);
-        const rt_vec3 side = rt_normalize(rt_cross(out, random_direction(&rng)));
+        rt_vec3 out = random_direction(&rng);
+        rt_vec3 side = rt_normalize(rt_cross(out, random_direction(&rng)));
+        if (i % 7 <
+            3) { /* where the sphere touches the box that is around it in the tree */
+            side = rt_vec(i % 7 == 0, i % 7 == 1, i % 7 == 2);
+            out = rt_normalize(rt_cross(out, side));
+        }
         rt_ray ray;
         ray.origin = rt_add(s->center, rt_scale(out, i % 5 == 0 ? far : far * s->radius));
         const float rim = s->radius * (i % 2 == 0 ? 1 : uniform(&rng, 0.998f, 1.002f));
@@ -1426,18 +1437,21 @@ static void test_packets_see_far_spheres_as_single_rays_do(void **state)
 {
     (void)state;
     rt_vec3 pixels[16 * 12], again[16 * 12];
-    for (int e = 2; e <= 12; e++) {
-        const float far = powf(10, (float)e);
-        const rt_sphere spheres[] = {{{far, 0, 0}, 1, {{1, 0.5f, 0.25f}, false}},
-                                     {{far, 1.5f, 0}, 0.5f, {{0.25f, 0.5f, 1}, true}}};
-        const rt_light light = {{0, 0, 0}, {1e15f, 1e15f, 1e15f}};
+    for (int k = 4; k <= 24; k++) {
+        /* the camera at (0,0,0) and the spheres far away, or the other way round */
+        const float far = powf(10, (float)(k / 2));
+        const float from = k % 2 == 0 ? 0 : -far, x = far + from;
+        const rt_sphere spheres[] = {{{x, 0, 0}, 1, {{1, 0.5f, 0.25f}, false}},
+                                     {{x, 1.5f, 0}, 0.5f, {{0.25f, 0.5f, 1}, true}}};
+        const rt_light light = {{x - 5, 4, 0}, {100, 100, 100}};
         const rt_scene scene = {.spheres = spheres,
                                 .sphere_count = 2,
                                 .lights = &light,
                                 .light_count = 1,
                                 .background = {0.1f, 0.1f, 0.1f}};
-        const rt_camera camera = {.direction = {1, 0, 0}, .fov_y = 200 / far};
-        rt_options options = {.samples = 4, .bounces = 3};
+        const rt_camera camera = {
+            .position = {from, 0, 0}, .direction = {1, 0, 0}, .fov_y = 200 / far};
+        rt_options options = {.samples = 16, .bounces = 3};
         rt_image a = small_image(16, 12, pixels), b = small_image(16, 12, again);
         assert_int_equal(rt_render(&scene, &camera, &options, &a), RT_OK);
         options.lanes = 1;
