@@ -518,6 +518,26 @@ static void test_no_path_leaves_a_closed_room_or_hits_where_it_is(void **state)
             check_path(kind, k & 1, k & 2 ? 1000 : 0, k & 4, 10000);
 }
 
+/* Rays that pass the top of a cube and come down beside it, on a wall or on the floor: what
+ * they hit there is not in the cube, on whose inside the path would go on. */
+static void test_what_comes_down_beside_a_cube_is_not_in_it(void **state)
+{
+    (void)state;
+    room r = closed_room(CUBE_IN_A_CORNER, false, rt_vec(1000, 1000, 1000), false);
+    r.scene.boxes = r.boxes;
+    const float z = r.boxes[1].max.z; /* 997 */
+    const rt_ray rays[] = {{{998.241638f, 1002.99902f, 996.856995f},
+                            {-0.488311261f, -0.872105539f, 0.0313691571f}},
+                           {{1001.31329f, 1002.99902f, 996.990417f},
+                            {-0.500216007f, -0.865899324f, 0.00150823384f}}};
+    for (size_t i = 0; i < COUNT(rays); i++) {
+        rt_hit hit = untouched;
+        assert_true(rt_intersect(&r.scene, &rays[i], &hit));
+        assert_int_equal(hit.shape, 0);
+        assert_true(hit.point.z > z); /* by 8e-4 or more */
+    }
+}
+
 /* ---- the mean ----------------------------------------------------------------------- */
 
 /* A pixel that is bright now and then, and the sum of what it gave. */
@@ -1605,6 +1625,7 @@ int main(void)
         cmocka_unit_test(test_no_ray_leaves_a_closed_room),
         cmocka_unit_test(test_nor_with_one_ray_at_a_time),
         cmocka_unit_test(test_no_path_leaves_a_closed_room_or_hits_where_it_is),
+        cmocka_unit_test(test_what_comes_down_beside_a_cube_is_not_in_it),
         cmocka_unit_test(test_the_mean_does_not_drift),
         cmocka_unit_test(test_nor_does_that_of_a_picture_that_stops_by_itself),
         cmocka_unit_test(test_samples_may_be_split_in_any_way),
