@@ -1,5 +1,5 @@
 /* Chapter 4: does a closed box let rays out? A box seen from its middle, no lamp, and a
- * bright background, which nobody inside must see. Four million paths of 5 bounces: how many
+ * bright background, which nobody inside must see. Twelve million paths of 5 bounces: how many
  * get out, (a) with hits as rt_intersect gives them, with the point pulled into the box, and
  * (b) as rt_hit_box does, with the point just on the plane of the face? */
 #define RT_IMPLEMENTATION
@@ -7,7 +7,7 @@
 #include "rt.h"
 #include <stdio.h>
 
-enum { N = 4000000 };
+enum { N = 12000000 };
 
 static bool pull;
 
