@@ -874,12 +874,12 @@ static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_m
  *
  * P = C + t u is rounded. Next to an edge it may come to lie on the far side of the wall
  * beside, and from there a path leaves a closed room. Both walls' t are wrong by two
- * roundings at most, and P by two more: 8 eps max(|P|, |C|) is more than all of them
- * together. So what was strictly between two walls stays strictly between them. */
+ * roundings at most, and so is t u; P adds one more: 4 eps |P - C| + eps |P| is more than
+ * all of them together. So what was strictly between two walls stays strictly between
+ * them. */
 static inline float rt__pull(float p, float origin)
 {
-    const float size = fabsf(p) > fabsf(origin) ? fabsf(p) : fabsf(origin);
-    const float step = 8.0f * FLT_EPSILON * size;
+    const float step = FLT_EPSILON * (4.0f * fabsf(p - origin) + fabsf(p));
     const float pulled = p > origin ? p - step : p + step;
     return (pulled > origin) == (p > origin) ? pulled : origin;
 }
@@ -1809,9 +1809,10 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
     rt_path *path = scene->bvh->path;
     const bool blocked = rt_occluded(path->scene, ray, t_max);
     const int n = path->shadow_count++, vertex = path->vertex_count - 1;
-    if (n >= path->max_shadows || vertex < 0 || vertex >= path->max_vertices)
+    if (vertex < 0 || vertex >= path->max_vertices)
         return blocked;
-    rt_shadow *s = &path->shadows[n];
+    rt_shadow none; /* in place of one that does not fit: the light counts all the same */
+    rt_shadow *s = n < path->max_shadows ? &path->shadows[n] : &none;
     rt_vertex *v = &path->vertices[vertex];
     memset(s, 0, sizeof *s);
     s->vertex = vertex;
@@ -2582,7 +2583,7 @@ static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
         const double now = rt__seconds(), seconds = now - team->since;
         int samples = last->to - last->from;
         samples = seconds < 0.0025 && samples < INT_MAX / 2 ? 2 * samples
-                  : seconds > 0.01 && samples > 1           ? samples / 2
+                  : seconds > 0.05 && samples > 1           ? samples / 2
                                                             : samples;
         team->since = now;
         last->from = last->to;
@@ -2659,7 +2660,7 @@ static inline void rt__look_up(rt_watch *watch)
     const bool over = o->seconds > 0.0f && now - team->start >= (double)o->seconds;
     bool go_on = true;
     watch->ticks = team->job->ticks;
-    if (o->progress && now - team->asked >= team->interval) {
+    if (o->progress && !team->cancelled && now - team->asked >= team->interval) {
         for (int k = 1; k < team->threads; k++)
             rt__lock(&team->writing[k]);
         rt__count_samples(team);
@@ -2767,8 +2768,9 @@ static inline void rt__run_team(rt__team *team, int target)
         team->end = o->error > 0.0f && look < target ? (int)look : target;
         rt__work_together(team);
         if (o->error > 0.0f && image->done == 0 && image->samples == look) {
-            const float error = rt_image_error(image), part = o->error / error;
-            team->part_of_error = error <= o->error ? 1.0f : part * part;
+            const float error = rt_image_error(image);
+            const float part = error > o->error ? o->error / error : 1.0f;
+            team->part_of_error = part * part;
             look += 2 * (look / 16 + 1);
         }
     }
@@ -3773,7 +3775,7 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, float low, float high, rt
 /* rt__pull. */
 RT__INLINE rt__f rt__pull_lanes(rt__f p, rt__f origin)
 {
-    const rt__f step = rt__fmax(rt__fabs(p), rt__fabs(origin)) * (8.0f * FLT_EPSILON);
+    const rt__f step = FLT_EPSILON * (4.0f * rt__fabs(p - origin) + rt__fabs(p));
     const rt__m up = p > origin;
     const rt__f back = rt__select(up, p - step, p + step);
     return rt__select((back > origin) ^ up, origin, back);
