@@ -14,8 +14,9 @@ static float samples[N];
 int main(void)
 {
     const float gaps[3] = {1, 0.1f, 0.01f};
-    printf("| lamp to ceiling | largest sample / mean | lost if cut at 10 times the mean |\n"
-           "|---|---|---|\n");
+    printf(
+        "| lamp to ceiling | largest sample / mean | lost if cut at 10 times the mean |\n"
+        "|---|---|---|\n");
     for (int k = 0; k < 3; k++) {
         const rt_box room = {{-5, -5, -5}, {5, 5, 5}, {{0.5f, 0.5f, 0.5f}, false}};
         const rt_light lamp = {{0, 5 - gaps[k], 0}, {100, 100, 100}};

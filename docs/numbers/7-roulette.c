@@ -27,7 +27,8 @@ static void exercise(void)
         squares += value * value;
     }
     const double mean = sum / 1e5;
-    printf("all: %.2f\nall-error: %.2f\n", mean, sqrt((squares / 1e5 - mean * mean) / 1e5));
+    printf("all: %.2f\nall-error: %.2f\n", mean,
+           sqrt((squares / 1e5 - mean * mean) / 1e5));
 }
 
 int main(void)
@@ -46,7 +47,8 @@ int main(void)
         error[k] = (double)rt_image_error(&image);
     }
     printf("missing5: %.1f\n", 100 * (1 - mean[3] / mean[7]));
-    printf("| bounces | mean | missing | rays per sample | noise |\n|---|---|---|---|---|\n");
+    printf("| bounces | mean | missing | rays per sample | noise "
+           "|\n|---|---|---|---|---|\n");
     for (int k = 0; k < 8; k++) {
         char name[20] = "all";
         if (k < 7)
