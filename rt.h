@@ -1811,13 +1811,12 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
     const int n = path->shadow_count++, vertex = path->vertex_count - 1;
     if (vertex < 0 || vertex >= path->max_vertices)
         return blocked;
-    rt_shadow none; /* in place of one that does not fit: the light counts all the same */
-    rt_shadow *s = n < path->max_shadows ? &path->shadows[n] : &none;
+    rt_shadow here; /* also if it does not fit: the light counts all the same */
     rt_vertex *v = &path->vertices[vertex];
-    memset(s, 0, sizeof *s);
-    s->vertex = vertex;
-    s->ray = *ray;
-    s->blocker = -1;
+    memset(&here, 0, sizeof here);
+    here.vertex = vertex;
+    here.ray = *ray;
+    here.blocker = -1;
     /* which light? the one at the end of the ray */
     const rt_vec3 end = rt_at(ray, 1.0f);
     float least = FLT_MAX;
@@ -1825,23 +1824,26 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
         const float distance = rt_length(rt_sub(scene->lights[i].position, end));
         if (distance < least) {
             least = distance;
-            s->light = i;
+            here.light = i;
         }
     }
-    const rt_light *light = &scene->lights[s->light];
+    const rt_light *light = &scene->lights[here.light];
     const rt_vec3 to_light = rt_sub(light->position, v->hit.point);
-    s->dd = rt_dot(to_light, to_light);
-    s->cosine = s->dd > 0.0f ? rt_dot(v->hit.normal, to_light) / sqrtf(s->dd) : 0.0f;
+    here.dd = rt_dot(to_light, to_light);
+    here.cosine =
+        here.dd > 0.0f ? rt_dot(v->hit.normal, to_light) / sqrtf(here.dd) : 0.0f;
     rt_hit between;
     memset(&between, 0, sizeof between); /* an rt_intersect of your own may leave it so */
     if (!blocked) {
-        s->light_sent = rt_lambert(v->hit.material->albedo, v->hit.normal, to_light,
-                                   light->intensity);
-        v->light = rt_add(v->light, s->light_sent);
+        here.light_sent = rt_lambert(v->hit.material->albedo, v->hit.normal, to_light,
+                                     light->intensity);
+        v->light = rt_add(v->light, here.light_sent);
     } else if (rt_intersect(path->scene, ray, &between)) {
-        s->blocker = rt__shape_number(scene, &between);
-        s->t = between.t;
+        here.blocker = rt__shape_number(scene, &between);
+        here.t = between.t;
     }
+    if (n < path->max_shadows)
+        path->shadows[n] = here;
     return blocked;
 }
 
