@@ -227,6 +227,23 @@ static void test_what_has_no_place_is_counted(void **state)
     free_image(&image);
 }
 
+static void test_shadows_without_a_place_still_bring_light(void **state)
+{
+    (void)state;
+    rt_image image = rendered(&views[0]);
+    rt_path path = empty_path();
+    path.max_shadows = 0;
+    assert_int_equal(rt_trace_pixel(views[0].scene, views[0].camera, &views[0].options,
+                                    &image, 6, 6, 0, &path),
+                     RT_OK);
+    rt_vec3 sum = {0, 0, 0};
+    for (int k = 0; k < path.vertex_count; k++)
+        sum = rt_add(sum, rt_mul(vertices[k].throughput, vertices[k].light));
+    assert_true(path.value.x > 0);
+    assert_true(same_bits(sum, path.value));
+    free_image(&image);
+}
+
 static void test_with_a_tree_the_same(void **state)
 {
     (void)state;
@@ -292,6 +309,7 @@ int main(void)
         cmocka_unit_test(test_the_path_hangs_together),
         cmocka_unit_test(test_the_lights_were_asked_for),
         cmocka_unit_test(test_what_has_no_place_is_counted),
+        cmocka_unit_test(test_shadows_without_a_place_still_bring_light),
         cmocka_unit_test(test_with_a_tree_the_same),
         cmocka_unit_test(test_bad_arguments),
     };
