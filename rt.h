@@ -2300,10 +2300,12 @@ static inline rt__shape rt__shape_of(const rt_scene *scene, int number)
     return shape;
 }
 
-/* Up to so many shapes packets ask one by one, without the tree; if their numbers are
- * neither so large that their squares are too much for float, nor so small that a ray
- * which leaves one, see rt_leave, is on the other side of it already. */
-enum { RT__FEW = 64 };
+/* Packets ask up to 10 shapes for each of their lanes one by one, without the tree: about
+ * there the two take the same time. But only if the numbers of the shapes are neither so
+ * large that their squares are too much for float, nor so small that a ray which leaves
+ * one, see rt_leave, is on the other side of it already. One ray at a time takes the tree
+ * for more than 64. */
+enum { RT__FEW_PER_LANE = 10, RT__FEW = 16 * RT__FEW_PER_LANE, RT__FEW_ALONE = 64 };
 #define RT__MODERATE 1e7f
 
 static inline bool rt__are_few(const rt_scene *scene)
@@ -2353,7 +2355,7 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     bvh->nodes = (rt_bvh_node *)RT_MALLOC(nodes * sizeof *bvh->nodes);
     const bool few = rt__are_few(scene);
     if (few)
-        bvh->shapes = (rt__shape *)RT_MALLOC(RT__FEW * sizeof *bvh->shapes);
+        bvh->shapes = (rt__shape *)RT_MALLOC(n * sizeof *bvh->shapes);
     const bool good = bounds && order && bvh->nodes && (bvh->shapes || !few);
     if (good) {
         bounds[0] = rt__no_bounds();
@@ -3005,9 +3007,10 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     if (status != RT_OK)
         return status;
     const int lanes = rt_lane_count(job.options.lanes);
+    const int shapes = scene->sphere_count + scene->box_count;
     memset(&bvh, 0, sizeof bvh);
     indexed = *scene;
-    if (!scene->bvh && (lanes > 1 || scene->sphere_count + scene->box_count > RT__FEW)) {
+    if (!scene->bvh && (lanes > 1 || shapes > RT__FEW_ALONE)) {
         status = rt_build_bvh(scene, &bvh);
         if (status != RT_OK)
             return status;
@@ -3016,6 +3019,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     job.scene = &indexed;
     const float most = RT__MODERATE;
     job.by_tree = !indexed.bvh || !indexed.bvh->shapes ||
+                  shapes > lanes * RT__FEW_PER_LANE ||
                   !rt__within(camera->position, -most, most);
     for (int i = 0; i < scene->light_count; i++)
         job.by_tree = job.by_tree || !rt__within(scene->lights[i].position, -most, most);
