@@ -1231,22 +1231,10 @@ typedef struct rt_bvh_node {
     int count;
 } rt_bvh_node;
 
-/* A shape as packets of rays want it: see the last section. */
-typedef struct rt__shape {
-    rt_vec3 center; /* of a box: min */
-    float radius;
-    rt_vec3 albedo;
-    float kind;  /* 1 for a mirror, and 2 more for a box */
-    rt_vec3 max; /* of a box */
-    float power; /* |O|^2 - R^2, the power of the point (0,0,0) */
-    float size;  /* max(|O|, R), scaled by RT__DOUBT */
-} rt__shape;
-
 /* What rt_build_bvh makes of a scene. All zero is an empty one. */
 typedef struct rt_bvh {
     rt_bvh_node *nodes; /* nodes[0] is around everything */
     int node_count, sphere_count, box_count;
-    rt__shape *shapes;    /* all of them, if they are few; or NULL */
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
@@ -2010,21 +1998,32 @@ RTDEF int rt_thread_count(int wanted)
 #endif
 }
 
-/* Can rays be traced in packets? See the last section. Not where the compiler does not
- * optimise: there they would take longer. RT_NO_PACKETS leaves them out, RT_PACKETS takes
- * them in all the same. */
+/* How many rays at a time? See the last section. None where the compiler does not optimise:
+ * there packets would take longer. RT_NO_PACKETS leaves them out, RT_PACKETS takes them in
+ * all the same. */
 #if defined(__GNUC__) && !defined(RT_NO_PACKETS) && !defined(RT__OWN) &&                 \
     (defined(__OPTIMIZE__) || defined(RT_PACKETS))
-#ifdef __SSE2_MATH__
-#define RT__PACKETS
+#if defined(__SSE2_MATH__)
 #define RT__X86
-#include <fenv.h>
 #include <immintrin.h>
-#elif defined(__aarch64__) && defined(__ARM_NEON)
-#define RT__PACKETS
-#include <arm_neon.h>
-#include <fenv.h>
+#if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512BW__) &&            \
+    defined(__AVX512DQ__) && defined(__FMA__)
+#define RT__LANES 16
+#else
+#define RT__LANES 8 /* with AVX2, asked for when the program runs */
 #endif
+#elif defined(__aarch64__) && defined(__ARM_NEON)
+#define RT__LANES 4
+#include <arm_neon.h>
+#elif defined(__wasm_simd128__)
+#define RT__LANES 4
+#include <wasm_simd128.h>
+#endif
+#endif
+#ifdef RT__LANES
+#include <fenv.h>
+#else
+#define RT__LANES 1
 #endif
 
 /* ---- the tree of chapter 8 ------------------------------------------------------- */
@@ -2272,63 +2271,18 @@ static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *o
     }
 }
 
-#define RT__DOUBT 1.381067932e-3f /* 2^-9.5 */
+/* For one ray at a time, up to so many shapes are asked sooner without the tree. */
+enum { RT__FEW_ALONE = 64 };
 
-static inline rt__shape rt__shape_of(const rt_scene *scene, int number)
-{
-    rt__shape shape;
-    const rt_material *material;
-    memset(&shape, 0, sizeof shape);
-    if (number < scene->sphere_count) {
-        const rt_sphere *sphere = &scene->spheres[number];
-        const rt_dvec3 center = rt_to_double(sphere->center);
-        const double oo = rt_ddot(center, center), r = (double)sphere->radius;
-        shape.center = sphere->center;
-        shape.radius = sphere->radius;
-        shape.power = (float)(oo - r * r);
-        shape.size = RT__DOUBT * (float)(oo > r * r ? sqrt(oo) : r) + 1e-10f;
-        material = &sphere->material;
-    } else {
-        const rt_box *box = &scene->boxes[number - scene->sphere_count];
-        shape.center = box->min;
-        shape.max = box->max;
-        shape.kind = 2.0f;
-        material = &box->material;
-    }
-    shape.albedo = material->albedo;
-    shape.kind += material->mirror ? 1.0f : 0.0f;
-    return shape;
-}
-
-/* Packets ask up to 10 shapes for each of their lanes one by one, without the tree: about
- * there the two take the same time. But only if the numbers of the shapes are neither so
- * large that their squares are too much for float, nor so small that a ray which leaves
- * one, see rt_leave, is on the other side of it already. One ray at a time takes the tree
- * for more than 64. */
-enum { RT__FEW_PER_LANE = 10, RT__FEW = 16 * RT__FEW_PER_LANE, RT__FEW_ALONE = 64 };
+/* No number of few shapes, camera and lights may be above this: their squares must be
+ * good floats. */
 #define RT__MODERATE 1e7f
-
-static inline bool rt__are_few(const rt_scene *scene)
-{
-    const float most = RT__MODERATE;
-    bool good = scene->sphere_count + scene->box_count <= RT__FEW;
-    for (int i = 0; good && i < scene->sphere_count; i++) {
-        const rt_sphere *s = &scene->spheres[i];
-        good = rt__within(s->center, -most, most) && s->radius <= most &&
-               s->radius >= 1e-3f * (1.0f + rt_length(s->center) + s->radius);
-    }
-    for (int i = 0; good && i < scene->box_count; i++)
-        good = rt__within(scene->boxes[i].min, -most, most) &&
-               rt__within(scene->boxes[i].max, -most, most);
-    return good;
-}
 
 RTDEF void rt_free_bvh(rt_bvh *bvh)
 {
     if (!bvh)
         return;
     RT_FREE(bvh->nodes);
-    RT_FREE(bvh->shapes);
     memset(bvh, 0, sizeof *bvh);
 }
 
@@ -2353,10 +2307,7 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     rt__bounds *bounds = (rt__bounds *)RT_MALLOC(n * sizeof *bounds);
     int *order = (int *)RT_MALLOC(n * sizeof *order);
     bvh->nodes = (rt_bvh_node *)RT_MALLOC(nodes * sizeof *bvh->nodes);
-    const bool few = rt__are_few(scene);
-    if (few)
-        bvh->shapes = (rt__shape *)RT_MALLOC(n * sizeof *bvh->shapes);
-    const bool good = bounds && order && bvh->nodes && (bvh->shapes || !few);
+    const bool good = bounds && order && bvh->nodes;
     if (good) {
         bounds[0] = rt__no_bounds();
         for (int i = 0; i < count; i++) {
@@ -2364,8 +2315,6 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
             order[i] = i;
         }
         rt__build_nodes(bvh, bounds, order, count);
-        for (int i = 0; i < count && few; i++)
-            bvh->shapes[i] = rt__shape_of(scene, i);
         bvh->sphere_count = scene->sphere_count;
         bvh->box_count = scene->box_count;
     }
@@ -2379,6 +2328,7 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
 /* ---- the loop over samples and pixels -------------------------------------------- */
 
 typedef struct rt__job rt__job;
+typedef struct rt__table rt__table; /* see the last section */
 
 /* Trace sample number sample of the pixels from first to last - 1 into values; returns
  * how many rays it took. */
@@ -2396,7 +2346,7 @@ struct rt__job {
     const rt_scene *scene; /* what rt_render is about */
     const rt_camera *camera;
     rt__film film;
-    bool by_tree; /* packets ask the tree, not all shapes */
+    const rt__table *table; /* for packets, if the shapes are few */
 };
 
 /* Which random numbers a sample takes: those of (the result, *seed). */
@@ -2725,7 +2675,7 @@ static inline void rt__work(rt__team *team, int thread)
  * flags. */
 static inline void rt__work_quietly(rt__team *team, int thread)
 {
-#ifdef RT__PACKETS
+#if RT__LANES > 1
     if (team->job->together > 1) {
         fenv_t environment;
         feholdexcept(&environment);
@@ -2881,57 +2831,14 @@ static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *r
     return rt_radiance(job->scene, &ray, job->options.bounces, rng);
 }
 
-#ifdef RT__PACKETS
-#define RT__LANES 4
-#include "rt.h" /* its last section, once for each number of lanes */
-#undef RT__LANES
-#ifdef RT__X86
-#ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-#pragma GCC optimize("fp-contract=off") /* else only these would contract */
-#endif
-#define RT__LANES 8
-#include "rt.h"
-#undef RT__LANES
-#ifdef __clang__
-#pragma clang attribute pop
-#pragma clang attribute push(                                                            \
-    __attribute__((target("avx2,fma,avx512f,avx512vl,avx512bw,avx512dq"))),              \
-    apply_to = function)
-#else
-#pragma GCC target("avx512f,avx512vl,avx512bw,avx512dq")
-#endif
-#define RT__LANES 16
-#include "rt.h"
-#undef RT__LANES
-#ifdef __clang__
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
-#endif
-#endif
-
 RTDEF int rt_lane_count(int wanted)
 {
-    int most = 1;
-#ifdef RT__PACKETS
-    most = 4;
-#ifdef RT__X86
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        most = 8;
-    if (most == 8 && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
-        most = 16;
+    int most = RT__LANES;
+#if defined(RT__X86) && RT__LANES == 8
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+        most = 1;
 #endif
-#endif
-    int lanes = 1;
-    for (int more = 4; more <= most && (wanted <= 0 || more <= wanted); more *= 2)
-        lanes = more;
-    return lanes;
+    return wanted <= 0 || wanted >= most ? most : 1;
 }
 
 /* What rt_render and rt_trace_pixel have in common. */
@@ -2997,6 +2904,10 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
     return RT_OK;
 }
 
+#if RT__LANES > 1
+static rt_status rt__run_packets(rt__job *job);
+#endif
+
 RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
                           const rt_options *options, rt_image *image)
 {
@@ -3017,153 +2928,193 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
         indexed.bvh = &bvh;
     }
     job.scene = &indexed;
-    const float most = RT__MODERATE;
-    job.by_tree = !indexed.bvh || !indexed.bvh->shapes ||
-                  shapes > lanes * RT__FEW_PER_LANE ||
-                  !rt__within(camera->position, -most, most);
-    for (int i = 0; i < scene->light_count; i++)
-        job.by_tree = job.by_tree || !rt__within(scene->lights[i].position, -most, most);
-#ifdef RT__PACKETS
-    if (lanes > 1) {
-        job.step = rt__step_packets4;
-        job.together = 4;
-#ifdef RT__X86
-        if (lanes >= 8) {
-            job.step = rt__step_packets8;
-            job.together = 8;
-        }
-        if (lanes == 16 && !job.by_tree) { /* its nodes have eight boxes */
-            job.step = rt__step_packets16;
-            job.together = 16;
-        }
+#if RT__LANES > 1
+    if (lanes > 1)
+        status = rt__run_packets(&job);
+    else
 #endif
-        job.ticks = job.by_tree ? 1 : 64;
-    }
-#endif
-    status = rt__run(&job);
+        status = rt__run(&job);
     rt_free_bvh(&bvh);
     return status;
 }
 
-#if defined(__cplusplus) && defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
-#ifdef __clang__
-#pragma STDC FP_CONTRACT DEFAULT
-#endif
-#endif /* RT_IMPLEMENTATION */
-
 /* ====================================================================================
  * Packets: 4, 8 or 16 rays at a time
  *
- * A core of today adds 4, 8 or 16 floats with the one instruction that adds one (SSE2 and
- * NEON 4, AVX2 8, AVX-512 16). So here are chapters 1 to 7 once more, for packets of
- * neighbouring pixels: where they say float, this says rt__f, one float for each ray, its
- * lane; a + b adds lane by lane, a < b gives a mask with all bits set where it is true,
- * and where they say if, this says rt__select(mask, yes, no), because all lanes go the
- * same way. The vectors are those of gcc and clang; sqrt, min, max, select, conversions
- * are the machine's own. The file includes itself, as "rt.h", to come here once for each
- * number of lanes; all names get the number at their end.
+ * A core of today adds 4, 8 or 16 floats with the one instruction that adds one. So here
+ * are chapters 1 to 7 once more, for a packet of neighbouring pixels, each in its lane:
  *
- * Every lane computes the bits that chapters 1 to 7 would compute. For most of the code
- * that is plain: the same operations in the same order. The sphere is the exception: of
- * double, which it needs, only half as many fit, and most spheres are not hit. So all
- * shapes are asked in float first, with a bound for the error, which gives each a t that
- * is surely not too large. If the shape with the smallest, computed as chapter 1 does, in
- * double, is nearer than that of any other, it is the nearest. If not, that ray goes
- * alone through the tree of chapter 8, which asks chapters 1 to 3. Shadows likewise: yes,
- * no, or in doubt alone. In the room, one ray in some thousands is in doubt.
+ *     lane             0     1     2     3   ...
+ *     pixel (x, y)    0,0   1,0   2,0   3,0        neighbours in a row
+ *     a              -2.0   0.5   1.0   3.0        rt__f: a float in each lane
+ *     b               1.0   1.0   1.0   1.0
+ *     a + b          -1.0   1.5   2.0   4.0        one addition for all
+ *     rt__less(a, b)  yes   yes   no    no         rt__m: a mask
+ *     rt__select(rt__less(a, b), a, b)
+ *                    -2.0   0.5   1.0   1.0        what takes the place of if
  *
- * That is how the scene is asked if the shapes are few. If they are many, all rays go
- * through the tree alone, and the lanes are the eight boxes of a node.
+ * All lanes go the same way, so both sides of an if are computed, and each lane selects
+ * its own. Functions are named after those of the chapters, which say what is computed.
+ *
+ * Every lane gets the bits that the chapters give. For most of the code that is plain: the
+ * same operations in the same order. The sphere is the exception: it needs double, of
+ * which only half as many fit, and most spheres are not hit. So all shapes are asked in
+ * float first, with a bound for the error, and only the nearest is done once more, as
+ * chapter 1 does it. If it is nearer than any other can be, it is the nearest. If not, the
+ * ray goes alone through the tree of chapter 8. Shadows likewise: yes, no, or in doubt
+ * alone. In the room, one ray in some thousands is in doubt.
+ *
+ * That is for few shapes. If they are many, all rays go through the tree alone.
+ *
+ * One program has one number of lanes, RT__LANES. What is written for it stands here
+ * once; only the table that follows knows the machine.
  * ==================================================================================== */
-#ifdef RT__LANES
+#if RT__LANES > 1
 
-#define RT__PASTE(name, lanes) name##lanes
-#define RT__NAME(name, lanes) RT__PASTE(name, lanes)
-#define rt__cuts RT__NAME(rt__cuts, RT__LANES)
-#define rt__d RT__NAME(rt__d, RT__LANES)
-#define rt__d3 RT__NAME(rt__d3, RT__LANES)
-#define rt__f RT__NAME(rt__f, RT__LANES)
-#define rt__f3 RT__NAME(rt__f3, RT__LANES)
-#define rt__hits RT__NAME(rt__hits, RT__LANES)
-#define rt__l RT__NAME(rt__l, RT__LANES)
-#define rt__m RT__NAME(rt__m, RT__LANES)
-#define rt__nearest RT__NAME(rt__nearest, RT__LANES)
-#define rt__numbers RT__NAME(rt__numbers, RT__LANES)
-#define rt__rays RT__NAME(rt__rays, RT__LANES)
-#define rt__shade RT__NAME(rt__shade, RT__LANES)
-#define rt__u RT__NAME(rt__u, RT__LANES)
-#define rt__add RT__NAME(rt__add, RT__LANES)
-#define rt__aim RT__NAME(rt__aim, RT__LANES)
-#define rt__all RT__NAME(rt__all, RT__LANES)
-#define rt__pull_lanes RT__NAME(rt__pull_lanes, RT__LANES)
-#define rt__backwards RT__NAME(rt__backwards, RT__LANES)
-#define rt__all_of RT__NAME(rt__all_of, RT__LANES)
-#define rt__bits RT__NAME(rt__bits, RT__LANES)
-#define rt__blocked RT__NAME(rt__blocked, RT__LANES)
-#define rt__blocked_in_tree RT__NAME(rt__blocked_in_tree, RT__LANES)
-#define rt__blocks_box RT__NAME(rt__blocks_box, RT__LANES)
-#define rt__blocks_sphere RT__NAME(rt__blocks_sphere, RT__LANES)
-#define rt__cosine RT__NAME(rt__cosine, RT__LANES)
-#define rt__cut_axis RT__NAME(rt__cut_axis, RT__LANES)
-#define rt__ddot RT__NAME(rt__ddot, RT__LANES)
-#define rt__depart RT__NAME(rt__depart, RT__LANES)
-#define rt__dmad RT__NAME(rt__dmad, RT__LANES)
-#define rt__dot RT__NAME(rt__dot, RT__LANES)
-#define rt__draw RT__NAME(rt__draw, RT__LANES)
-#define rt__dscale RT__NAME(rt__dscale, RT__LANES)
-#define rt__dselect RT__NAME(rt__dselect, RT__LANES)
-#define rt__dsqrt RT__NAME(rt__dsqrt, RT__LANES)
-#define rt__dsub RT__NAME(rt__dsub, RT__LANES)
-#define rt__enter_lanes RT__NAME(rt__enter_lanes, RT__LANES)
-#define rt__fabs RT__NAME(rt__fabs, RT__LANES)
-#define rt__face RT__NAME(rt__face, RT__LANES)
-#define rt__find RT__NAME(rt__find, RT__LANES)
-#define rt__find_in_tree RT__NAME(rt__find_in_tree, RT__LANES)
-#define rt__finish RT__NAME(rt__finish, RT__LANES)
-#define rt__finish_box RT__NAME(rt__finish_box, RT__LANES)
-#define rt__fma RT__NAME(rt__fma, RT__LANES)
-#define rt__fmax RT__NAME(rt__fmax, RT__LANES)
-#define rt__fmin RT__NAME(rt__fmin, RT__LANES)
-#define rt__fnma RT__NAME(rt__fnma, RT__LANES)
-#define rt__fsqrt RT__NAME(rt__fsqrt, RT__LANES)
-#define rt__gather RT__NAME(rt__gather, RT__LANES)
-#define rt__halves RT__NAME(rt__halves, RT__LANES)
-#define rt__invert RT__NAME(rt__invert, RT__LANES)
-#define rt__join RT__NAME(rt__join, RT__LANES)
-#define rt__leave RT__NAME(rt__leave, RT__LANES)
-#define rt__light RT__NAME(rt__light, RT__LANES)
-#define rt__look_up RT__NAME(rt__look_up, RT__LANES)
-#define rt__mix RT__NAME(rt__mix, RT__LANES)
-#define rt__mul RT__NAME(rt__mul, RT__LANES)
-#define rt__near_box RT__NAME(rt__near_box, RT__LANES)
-#define rt__near_sphere RT__NAME(rt__near_sphere, RT__LANES)
-#define rt__offer RT__NAME(rt__offer, RT__LANES)
-#define rt__owen RT__NAME(rt__owen, RT__LANES)
-#define rt__parallel RT__NAME(rt__parallel, RT__LANES)
-#define rt__path RT__NAME(rt__path, RT__LANES)
-#define rt__ray_of_lane RT__NAME(rt__ray_of_lane, RT__LANES)
-#define rt__scale RT__NAME(rt__scale, RT__LANES)
-#define rt__select RT__NAME(rt__select, RT__LANES)
-#define rt__set_lane RT__NAME(rt__set_lane, RT__LANES)
-#define rt__sign RT__NAME(rt__sign, RT__LANES)
-#define rt__slab RT__NAME(rt__slab, RT__LANES)
-#define rt__splat RT__NAME(rt__splat, RT__LANES)
-#define rt__step_packets RT__NAME(rt__step_packets, RT__LANES)
-#define rt__sub RT__NAME(rt__sub, RT__LANES)
-#define rt__terms RT__NAME(rt__terms, RT__LANES)
-#define rt__to_unit RT__NAME(rt__to_unit, RT__LANES)
-#define rt__vec RT__NAME(rt__vec, RT__LANES)
-#define rt__vhalves RT__NAME(rt__vhalves, RT__LANES)
-#define rt__vjoin RT__NAME(rt__vjoin, RT__LANES)
-#define rt__vselect RT__NAME(rt__vselect, RT__LANES)
+#if defined(RT__X86) && RT__LANES == 8 /* for these functions, whatever the others get */
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#pragma GCC optimize("fp-contract=off") /* else only these would contract */
+#endif
+#endif
 
 typedef float rt__f __attribute__((vector_size(4 * RT__LANES)));
-typedef int32_t rt__m __attribute__((vector_size(4 * RT__LANES))); /* -1 true, 0 false */
+typedef int32_t rt__i __attribute__((vector_size(4 * RT__LANES)));
 typedef uint32_t rt__u __attribute__((vector_size(4 * RT__LANES)));
 typedef double rt__d __attribute__((vector_size(4 * RT__LANES))); /* of half the lanes */
 typedef int64_t rt__l __attribute__((vector_size(4 * RT__LANES)));
+
+/* ---- what is the machine's own ----------------------------------------------------
+ *
+ *     less, same       a < b; a = b, of ints
+ *     no               not, of a mask
+ *     bits             a mask as bits, lane 0 lowest
+ *     select           mask ? a : b
+ *     min, max         a < b ? a : b, a > b ? a : b; so b if one of them is NaN
+ *     fma, fnma        a b + c, c - a b, rounded once or twice
+ *     pick             of a table of count floats, for each lane the one at its place
+ *     low, high        the first half of the lanes in double, the second
+ *     join             two halves rounded to float
+ *     reverse          the bits of each number in reverse order
+ */
+#if RT__LANES == 16 /* AVX-512: a mask is one bit for each lane */
+typedef __mmask16 rt__m;
+#define rt__less(a, b) _mm512_cmp_ps_mask((__m512)(a), (__m512)(b), _CMP_LT_OQ)
+#define rt__and_less(m, a, b)                                                            \
+    _mm512_mask_cmp_ps_mask(m, (__m512)(a), (__m512)(b), _CMP_LT_OQ)
+#define rt__same(a, b) _mm512_cmpeq_epi32_mask((__m512i)(a), (__m512i)(b))
+#define rt__no(m) ((rt__m) ~(m))
+#define rt__bits(m) ((unsigned)(m))
+#define rt__select(m, a, b) ((rt__f)_mm512_mask_blend_ps(m, (__m512)(b), (__m512)(a)))
+#define rt__fmin(a, b) ((rt__f)_mm512_maskz_min_ps(0xffff, (__m512)(a), (__m512)(b)))
+#define rt__fmax(a, b) ((rt__f)_mm512_maskz_max_ps(0xffff, (__m512)(a), (__m512)(b)))
+#define rt__fsqrt(v) ((rt__f)_mm512_maskz_sqrt_ps(0xffff, (__m512)(v)))
+#define rt__dsqrt(v) ((rt__d)_mm512_maskz_sqrt_pd(0xff, (__m512d)(v)))
+#define rt__fma(a, b, c) ((rt__f)_mm512_fmadd_ps((__m512)(a), (__m512)(b), (__m512)(c)))
+#define rt__fnma(a, b, c) ((rt__f)_mm512_fnmadd_ps((__m512)(a), (__m512)(b), (__m512)(c)))
+#define rt__low(v)                                                                       \
+    ((rt__d)_mm512_maskz_cvtps_pd(0xff, _mm512_castps512_ps256((__m512)(v))))
+#define rt__high(v)                                                                      \
+    ((rt__d)_mm512_maskz_cvtps_pd(0xff,                                                  \
+                                  _mm512_maskz_extractf32x8_ps(0xff, (__m512)(v), 1)))
+#define rt__join(a, b)                                                                   \
+    ((rt__f)_mm512_maskz_insertf32x8(                                                    \
+        0xffff, _mm512_castps256_ps512(_mm512_maskz_cvtpd_ps(0xff, (__m512d)(a))),       \
+        _mm512_maskz_cvtpd_ps(0xff, (__m512d)(b)), 1))
+#define rt__rows(v) _mm512_maskz_broadcast_i32x4(0xffff, v)
+#define rt__shuffle(a, b) _mm512_maskz_shuffle_epi8(~(__mmask64)0, a, b)
+typedef __m512i rt__bytes;
+RT__INLINE rt__f rt__pick(const float *table, rt__i at, int count)
+{
+    if (__builtin_expect(count <= 16, 1))
+        return (rt__f)_mm512_maskz_permutexvar_ps(0xffff, (__m512i)at,
+                                                  _mm512_loadu_ps(table));
+    return (rt__f)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff, (__m512i)at,
+                                           table, 4);
+}
+
+#else /* else -1, all bits set, or 0 in each lane */
+typedef rt__i rt__m;
+#define rt__less(a, b) ((a) < (b))
+#define rt__and_less(m, a, b) ((m) & ((a) < (b)))
+#define rt__same(a, b) ((a) == (b))
+#define rt__no(m) (~(m))
+#endif
+
+#if RT__LANES == 8 /* AVX2, FMA */
+#define rt__bits(m) ((unsigned)_mm256_movemask_ps((__m256)(m)))
+#define rt__select(m, a, b)                                                              \
+    ((rt__f)_mm256_blendv_ps((__m256)(b), (__m256)(a), (__m256)(m)))
+#define rt__fmin(a, b) ((rt__f)_mm256_min_ps((__m256)(a), (__m256)(b)))
+#define rt__fmax(a, b) ((rt__f)_mm256_max_ps((__m256)(a), (__m256)(b)))
+#define rt__fsqrt(v) ((rt__f)_mm256_sqrt_ps((__m256)(v)))
+#define rt__dsqrt(v) ((rt__d)_mm256_sqrt_pd((__m256d)(v)))
+#define rt__fma(a, b, c) ((rt__f)_mm256_fmadd_ps((__m256)(a), (__m256)(b), (__m256)(c)))
+#define rt__fnma(a, b, c) ((rt__f)_mm256_fnmadd_ps((__m256)(a), (__m256)(b), (__m256)(c)))
+#define rt__low(v) ((rt__d)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)(v))))
+#define rt__high(v) ((rt__d)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)(v), 1)))
+#define rt__join(a, b)                                                                   \
+    ((rt__f)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)(a))),  \
+                                 _mm256_cvtpd_ps((__m256d)(b)), 1))
+#define rt__rows(v) _mm256_broadcastsi128_si256(v)
+#define rt__shuffle(a, b) _mm256_shuffle_epi8(a, b)
+typedef __m256i rt__bytes;
+RT__INLINE rt__f rt__pick(const float *table, rt__i at, int count)
+{
+    if (__builtin_expect(count <= 8, 1))
+        return (rt__f)_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)at);
+    return (rt__f)_mm256_i32gather_ps(table, (__m256i)at, 4);
+}
+#endif
+
+#if RT__LANES == 4
+#define rt__select(m, a, b) ((rt__f)(((m) & (rt__i)(a)) | (~(m) & (rt__i)(b))))
+#define rt__fmin(a, b) rt__select((a) < (b), a, b)
+#define rt__fmax(a, b) rt__select((a) > (b), a, b)
+RT__INLINE rt__f rt__pick(const float *table, rt__i at, int count)
+{
+    const rt__f picked = {table[at[0]], table[at[1]], table[at[2]], table[at[3]]};
+    (void)count;
+    return picked;
+}
+#ifdef __wasm_simd128__
+#define rt__bits(m) ((unsigned)wasm_i32x4_bitmask((v128_t)(m)))
+#define rt__fsqrt(v) ((rt__f)wasm_f32x4_sqrt((v128_t)(v)))
+#define rt__dsqrt(v) ((rt__d)wasm_f64x2_sqrt((v128_t)(v)))
+#define rt__fma(a, b, c) ((a) * (b) + (c))
+#define rt__fnma(a, b, c) ((c) - (a) * (b))
+#define rt__low(v) ((rt__d)wasm_f64x2_promote_low_f32x4((v128_t)(v)))
+#define rt__high(v) rt__low(wasm_i32x4_shuffle((v128_t)(v), (v128_t)(v), 2, 3, 2, 3))
+#define rt__join(a, b)                                                                   \
+    ((rt__f)wasm_i32x4_shuffle(wasm_f32x4_demote_f64x2_zero((v128_t)(a)),                \
+                               wasm_f32x4_demote_f64x2_zero((v128_t)(b)), 0, 1, 4, 5))
+#else /* NEON */
+RT__INLINE unsigned rt__bits(rt__m m)
+{
+    const rt__i weights = {1, 2, 4, 8};
+    return (unsigned)vaddvq_s32((int32x4_t)(m & weights));
+}
+#define rt__fsqrt(v) ((rt__f)vsqrtq_f32((float32x4_t)(v)))
+#define rt__dsqrt(v) ((rt__d)vsqrtq_f64((float64x2_t)(v)))
+#define rt__fma(a, b, c)                                                                 \
+    ((rt__f)vfmaq_f32((float32x4_t)(c), (float32x4_t)(a), (float32x4_t)(b)))
+#define rt__fnma(a, b, c)                                                                \
+    ((rt__f)vfmsq_f32((float32x4_t)(c), (float32x4_t)(a), (float32x4_t)(b)))
+#define rt__low(v) ((rt__d)vcvt_f64_f32(vget_low_f32((float32x4_t)(v))))
+#define rt__high(v) ((rt__d)vcvt_high_f64_f32((float32x4_t)(v)))
+#define rt__join(a, b)                                                                   \
+    ((rt__f)vcvt_high_f32_f64(vcvt_f32_f64((float64x2_t)(a)), (float64x2_t)(b)))
+#endif
+#endif
+
+#define rt__any(m) (rt__bits(m) != 0)
+#define rt__count(m) ((uint64_t)__builtin_popcount(rt__bits(m)))
+#define rt__iselect(m, a, b) ((rt__i)rt__select(m, (rt__f)(a), (rt__f)(b)))
+
+/* ---- chapter 0 ------------------------------------------------------------------- */
 
 typedef struct rt__f3 {
     rt__f x, y, z;
@@ -3173,249 +3124,6 @@ typedef struct rt__d3 {
     rt__d x, y, z;
 } rt__d3;
 
-/* ---- what is the machine's own --------------------------------------------------- */
-
-#if RT__LANES == 16 /* AVX-512 */
-RT__INLINE rt__f rt__fsqrt(rt__f v)
-{
-    return (rt__f)_mm512_maskz_sqrt_ps(0xffff, (__m512)v);
-}
-RT__INLINE rt__d rt__dsqrt(rt__d v)
-{
-    return (rt__d)_mm512_maskz_sqrt_pd(0xff, (__m512d)v);
-}
-RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
-{
-    return (rt__f)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);
-}
-RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
-{
-    return (rt__f)_mm512_maskz_max_ps(0xffff, (__m512)a, (__m512)b);
-}
-RT__INLINE rt__f rt__select(rt__m mask, rt__f yes, rt__f no)
-{
-    return (rt__f)_mm512_mask_blend_ps(_mm512_movepi32_mask((__m512i)mask), (__m512)no,
-                                       (__m512)yes);
-}
-RT__INLINE int rt__bits(rt__m mask)
-{
-    return _mm512_movepi32_mask((__m512i)mask);
-}
-RT__INLINE void rt__halves(rt__f v, rt__d *two)
-{
-    two[0] = (rt__d)_mm512_maskz_cvtps_pd(
-        0xff, _mm512_maskz_extractf32x8_ps(0xff, (__m512)v, 0));
-    two[1] = (rt__d)_mm512_maskz_cvtps_pd(
-        0xff, _mm512_maskz_extractf32x8_ps(0xff, (__m512)v, 1));
-}
-RT__INLINE rt__f rt__join(const rt__d *two)
-{
-    return (rt__f)_mm512_maskz_insertf32x8(
-        0xffff, _mm512_castps256_ps512(_mm512_maskz_cvtpd_ps(0xff, (__m512d)two[0])),
-        _mm512_maskz_cvtpd_ps(0xff, (__m512d)two[1]), 1);
-}
-RT__INLINE rt__f rt__fma(rt__f a, rt__f b, rt__f c)
-{
-    return (rt__f)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
-}
-RT__INLINE rt__f rt__fnma(rt__f a, rt__f b, rt__f c)
-{
-    return (rt__f)_mm512_fnmadd_ps((__m512)a, (__m512)b, (__m512)c);
-}
-RT__INLINE void rt__gather(const rt__shape *shapes, const int32_t *places, rt__f *field)
-{
-    rt__f8 low[8], high[8];
-    rt__gather8(shapes, places, low);
-    rt__gather8(shapes, places + 8, high);
-    for (int k = 0; k < 8; k++)
-        field[k] = (rt__f)_mm512_maskz_insertf32x8(
-            0xffff, _mm512_castps256_ps512((__m256)low[k]), (__m256)high[k], 1);
-}
-/* In each 16 bytes: bytes of the table by indices, or of the indices by the table. */
-RT__INLINE rt__u rt__look_up(__m128i table, rt__u v, bool swap)
-{
-    const __m512i t = _mm512_maskz_broadcast_i32x4(0xffff, table), w = (__m512i)v;
-    return (rt__u)(swap ? _mm512_maskz_shuffle_epi8(~(__mmask64)0, w, t)
-                        : _mm512_maskz_shuffle_epi8(~(__mmask64)0, t, w));
-}
-#elif RT__LANES == 8   /* AVX2 */
-/* In each 16 bytes: bytes of the table by indices, or of the indices by the table. */
-RT__INLINE rt__u rt__look_up(__m128i table, rt__u v, bool swap)
-{
-    const __m256i t = _mm256_broadcastsi128_si256(table), w = (__m256i)v;
-    return (rt__u)(swap ? _mm256_shuffle_epi8(w, t) : _mm256_shuffle_epi8(t, w));
-}
-RT__INLINE rt__f rt__fsqrt(rt__f v)
-{
-    return (rt__f)_mm256_sqrt_ps((__m256)v);
-}
-RT__INLINE rt__d rt__dsqrt(rt__d v)
-{
-    return (rt__d)_mm256_sqrt_pd((__m256d)v);
-}
-RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
-{
-    return (rt__f)_mm256_min_ps((__m256)a, (__m256)b);
-}
-RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
-{
-    return (rt__f)_mm256_max_ps((__m256)a, (__m256)b);
-}
-RT__INLINE rt__f rt__select(rt__m mask, rt__f yes, rt__f no)
-{
-    return (rt__f)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)mask);
-}
-RT__INLINE int rt__bits(rt__m mask) /* bit i is set where lane i is true */
-{
-    return _mm256_movemask_ps((__m256)mask);
-}
-RT__INLINE void rt__halves(rt__f v, rt__d *two)
-{
-    two[0] = (rt__d)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)v));
-    two[1] = (rt__d)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)v, 1));
-}
-RT__INLINE rt__f rt__join(const rt__d *two)
-{
-    return (rt__f)_mm256_insertf128_ps(
-        _mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)two[0])),
-        _mm256_cvtpd_ps((__m256d)two[1]), 1);
-}
-RT__INLINE rt__f rt__fma(rt__f a, rt__f b, rt__f c) /* a b + c */
-{
-    return (rt__f)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
-}
-RT__INLINE rt__f rt__fnma(rt__f a, rt__f b, rt__f c) /* c - a b */
-{
-    return (rt__f)_mm256_fnmadd_ps((__m256)a, (__m256)b, (__m256)c);
-}
-/* The first 8 floats of the shapes at the 8 places: 8 rows, read as columns. */
-RT__INLINE void rt__gather(const rt__shape *shapes, const int32_t *places, rt__f *field)
-{
-    __m256 r[8], t[8];
-    for (int i = 0; i < 8; i++)
-        r[i] = _mm256_loadu_ps((const float *)((const char *)shapes + places[i]));
-    for (int i = 0; i < 8; i += 2) {
-        t[i] = _mm256_unpacklo_ps(r[i], r[i + 1]);
-        t[i + 1] = _mm256_unpackhi_ps(r[i], r[i + 1]);
-    }
-    for (int i = 0; i < 8; i += 4)
-        for (int k = 0; k < 2; k++) {
-            r[i + 2 * k] = _mm256_shuffle_ps(t[i + k], t[i + k + 2], 0x44);
-            r[i + 2 * k + 1] = _mm256_shuffle_ps(t[i + k], t[i + k + 2], 0xee);
-        }
-    for (int i = 0; i < 4; i++) {
-        field[i] = (rt__f)_mm256_permute2f128_ps(r[i], r[i + 4], 0x20);
-        field[i + 4] = (rt__f)_mm256_permute2f128_ps(r[i], r[i + 4], 0x31);
-    }
-}
-#elif defined(RT__X86) /* SSE2 */
-RT__INLINE rt__f rt__fsqrt(rt__f v)
-{
-    return (rt__f)_mm_sqrt_ps((__m128)v);
-}
-RT__INLINE rt__d rt__dsqrt(rt__d v)
-{
-    return (rt__d)_mm_sqrt_pd((__m128d)v);
-}
-RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
-{
-    return (rt__f)_mm_min_ps((__m128)a, (__m128)b);
-}
-RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
-{
-    return (rt__f)_mm_max_ps((__m128)a, (__m128)b);
-}
-RT__INLINE rt__f rt__select(rt__m mask, rt__f yes, rt__f no)
-{
-    mask = mask >> 31;
-    return (rt__f)((mask & (rt__m)yes) | (~mask & (rt__m)no));
-}
-RT__INLINE int rt__bits(rt__m mask)
-{
-    return _mm_movemask_ps((__m128)mask);
-}
-RT__INLINE void rt__halves(rt__f v, rt__d *two)
-{
-    two[0] = (rt__d)_mm_cvtps_pd((__m128)v);
-    two[1] = (rt__d)_mm_cvtps_pd(_mm_movehl_ps((__m128)v, (__m128)v));
-}
-RT__INLINE rt__f rt__join(const rt__d *two)
-{
-    return (rt__f)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)two[0]),
-                                _mm_cvtpd_ps((__m128d)two[1]));
-}
-#else                  /* NEON, 64 bits */
-RT__INLINE rt__f rt__fsqrt(rt__f v)
-{
-    return (rt__f)vsqrtq_f32((float32x4_t)v);
-}
-RT__INLINE rt__d rt__dsqrt(rt__d v)
-{
-    return (rt__d)vsqrtq_f64((float64x2_t)v);
-}
-RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
-{
-    return (rt__f)vminq_f32((float32x4_t)a, (float32x4_t)b);
-}
-RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
-{
-    return (rt__f)vmaxq_f32((float32x4_t)a, (float32x4_t)b);
-}
-RT__INLINE rt__f rt__select(rt__m mask, rt__f yes, rt__f no)
-{
-    return (rt__f)vbslq_f32((uint32x4_t)(mask >> 31), (float32x4_t)yes, (float32x4_t)no);
-}
-RT__INLINE int rt__bits(rt__m mask)
-{
-    const rt__m weights = {1, 2, 4, 8};
-    return vaddvq_s32((int32x4_t)((mask >> 31) & weights));
-}
-RT__INLINE void rt__halves(rt__f v, rt__d *two)
-{
-    two[0] = (rt__d)vcvt_f64_f32(vget_low_f32((float32x4_t)v));
-    two[1] = (rt__d)vcvt_high_f64_f32((float32x4_t)v);
-}
-RT__INLINE rt__f rt__join(const rt__d *two)
-{
-    return (rt__f)vcvt_high_f32_f64(vcvt_f32_f64((float64x2_t)two[0]),
-                                    (float64x2_t)two[1]);
-}
-#endif
-
-RT__INLINE rt__d rt__dselect(rt__l mask, rt__d yes, rt__d no)
-{
-    return (rt__d)((mask & (rt__l)yes) | (~mask & (rt__l)no));
-}
-
-/* True where v < 0: a mask counts as true where its sign bit is set. */
-RT__INLINE rt__m rt__sign(rt__f v)
-{
-    return (rt__m)v;
-}
-
-#if RT__LANES == 4
-RT__INLINE rt__f rt__fma(rt__f a, rt__f b, rt__f c)
-{
-    return a * b + c;
-}
-RT__INLINE rt__f rt__fnma(rt__f a, rt__f b, rt__f c)
-{
-    return c - a * b;
-}
-RT__INLINE void rt__gather(const rt__shape *shapes, const int32_t *places, rt__f *field)
-{
-    for (int k = 0; k < 8; k++) {
-        const char *row = (const char *)(&shapes->center.x + k);
-        const rt__f column = {
-            *(const float *)(row + places[0]), *(const float *)(row + places[1]),
-            *(const float *)(row + places[2]), *(const float *)(row + places[3])};
-        field[k] = column;
-    }
-}
-#endif
-
-/* ---- chapter 0 ------------------------------------------------------------------- */
-
 RT__INLINE rt__f rt__splat(float v)
 {
     const rt__f zero = {0.0f};
@@ -3424,7 +3132,7 @@ RT__INLINE rt__f rt__splat(float v)
 
 RT__INLINE rt__f rt__fabs(rt__f v)
 {
-    return (rt__f)((rt__m)v & 0x7fffffff);
+    return (rt__f)((rt__i)v & 0x7fffffff);
 }
 
 RT__INLINE rt__f3 rt__vec(rt__f x, rt__f y, rt__f z)
@@ -3466,10 +3174,10 @@ RT__INLINE rt__f rt__dot(rt__f3 a, rt__f3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-RT__INLINE rt__f3 rt__vselect(rt__m mask, rt__f3 yes, rt__f3 no)
+RT__INLINE rt__f3 rt__vselect(rt__m mask, rt__f3 a, rt__f3 b)
 {
-    return rt__vec(rt__select(mask, yes.x, no.x), rt__select(mask, yes.y, no.y),
-                   rt__select(mask, yes.z, no.z));
+    return rt__vec(rt__select(mask, a.x, b.x), rt__select(mask, a.y, b.y),
+                   rt__select(mask, a.z, b.z));
 }
 
 RT__INLINE rt__d rt__ddot(rt__d3 a, rt__d3 b)
@@ -3501,517 +3209,547 @@ RT__INLINE rt__d3 rt__dmad(rt__d3 a, rt__d k, rt__d3 b)
     return a;
 }
 
-RT__INLINE rt__d3 rt__all_of(rt_dvec3 v)
+RT__INLINE void rt__halves(rt__f v, rt__d *two)
 {
-    const rt__d zero = {0.0};
-    rt__d3 all;
-    all.x = v.x - zero;
-    all.y = v.y - zero;
-    all.z = v.z - zero;
-    return all;
+    two[0] = rt__low(v);
+    two[1] = rt__high(v);
 }
 
 RT__INLINE void rt__vhalves(rt__f3 v, rt__d3 *two)
 {
-    rt__d x[2], y[2], z[2];
-    rt__halves(v.x, x);
-    rt__halves(v.y, y);
-    rt__halves(v.z, z);
-    for (int h = 0; h < 2; h++) {
-        two[h].x = x[h];
-        two[h].y = y[h];
-        two[h].z = z[h];
-    }
+    two[0].x = rt__low(v.x);
+    two[0].y = rt__low(v.y);
+    two[0].z = rt__low(v.z);
+    two[1].x = rt__high(v.x);
+    two[1].y = rt__high(v.y);
+    two[1].z = rt__high(v.z);
 }
 
 RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
 {
-    const rt__d x[2] = {two[0].x, two[1].x}, y[2] = {two[0].y, two[1].y},
-                z[2] = {two[0].z, two[1].z};
-    return rt__vec(rt__join(x), rt__join(y), rt__join(z));
+    return rt__vec(rt__join(two[0].x, two[1].x), rt__join(two[0].y, two[1].y),
+                   rt__join(two[0].z, two[1].z));
 }
 
-/* ---- chapters 1 to 3: the nearest hit -------------------------------------------- */
+/* ---- the shapes, and where rays start --------------------------------------------- */
 
-/* The rays of a packet. Those that leave a sphere carry with them which one: it is at t =
- * 0, within rounding, and that must not be taken for a hit. */
-typedef struct rt__rays {
-    rt__f3 origin, direction;
-    rt__f3 inverse;        /* 1/u, finite also where u = 0 */
-    rt__f a;               /* <u,u> */
-    rt__f ou, oo, size;    /* <C,u>, <C,C> and |C|, the latter scaled as rt__shape.size */
-    rt__f3 twice;          /* 2 C */
-    rt__m outside, inside; /* the sphere that is left, on its outside or inside; or -1 */
-} rt__rays;
+/* So many shapes are asked one by one, without the tree: about there the two take the same
+ * time. */
+enum { RT__FEW = 10 * RT__LANES };
 
-RT__INLINE rt__f rt__invert(rt__f u)
-{
-    return 1.0f / rt__select(rt__sign(rt__fabs(u) - 1e-29f), rt__splat(1e-29f), u);
-}
+/* Few shapes, by field; spheres first, then boxes. */
+struct rt__table {
+    int spheres, count;
+    float x[RT__FEW], y[RT__FEW], z[RT__FEW];             /* center; of a box min */
+    float max_x[RT__FEW], max_y[RT__FEW], max_z[RT__FEW]; /* of a box */
+    float radius[RT__FEW];
+    float power[RT__FEW]; /* |O|^2 - R^2, the power of the point (0,0,0) */
+    float size[RT__FEW];  /* max(|O|, R), scaled by RT__DOUBT */
+    float red[RT__FEW], green[RT__FEW], blue[RT__FEW], kind[RT__FEW]; /* 1: mirror */
+    float largest;                                                    /* of the sizes */
+    bool by_light[RT__FEW]; /* a light is in this sphere, or near its surface */
+    bool light_inside;      /* of any of them */
+};
 
-/* Rays of which rt__invert does not tell the truth. */
-RT__INLINE rt__m rt__parallel(rt__f3 u)
-{
-    const rt__f least = rt__fmin(rt__fabs(u.x), rt__fmin(rt__fabs(u.y), rt__fabs(u.z)));
-    return rt__sign(least - 1e-29f);
-}
-
-RT__INLINE void rt__aim(rt__rays *r, rt__f3 origin, rt__f3 direction, rt__m outside,
-                        rt__m inside)
-{
-    r->origin = origin;
-    r->direction = direction;
-    r->inverse = rt__vec(rt__invert(direction.x), rt__invert(direction.y),
-                         rt__invert(direction.z));
-    r->a = rt__dot(direction, direction);
-    r->ou = rt__dot(origin, direction);
-    r->oo = rt__dot(origin, origin);
-    r->size = rt__fsqrt(r->oo) * RT__DOUBT;
-    r->twice = rt__add(origin, origin);
-    r->outside = outside;
-    r->inside = inside;
-}
-
-RT__INLINE rt_ray rt__ray_of_lane(const rt__rays *r, int lane)
-{
-    rt_ray ray;
-    ray.origin = rt_vec(r->origin.x[lane], r->origin.y[lane], r->origin.z[lane]);
-    ray.direction =
-        rt_vec(r->direction.x[lane], r->direction.y[lane], r->direction.z[lane]);
-    return ray;
-}
-
-/* b and c of rt_hit_sphere, in float:
+/* Where the rays of a packet start. They share, for each sphere, c = |C - O|^2 - R^2 of
+ * chapter 1: the shadow rays and the next bounce start at the same point.
  *
- *     b = <C - O, u> = <C,u> - <O,u>,    c = |C - O|^2 - R^2 = <C,C> - <O,2C> + power,
+ *     c = <C,C> - <O,2C> + (|O|^2 - R^2)
  *
- * of which much is the same for all spheres; and the small difference of the large |O|^2
- * and R^2, the power, was taken in double. With s = |C| + max(|O|, R), no number on the
- * way is larger than s^2 |u|^2, and each rounding is 2^-24 of it at most. So
+ * is a small difference of large numbers, and here in float, but for the last term, which
+ * was taken in double. With s = |C| + max(|O|, R) no number on the way is larger than s^2,
+ * and each of 9 roundings is 2^-24 of it at most. So with RT__DOUBT^2 = 2^-19
  *
- *     error of c  and  of (b^2 - a c) / a  <  doubt = 2^-19 s^2,
- *     error of b / |u|                     <  2^-21 s.
- *
- * size is s times RT__DOUBT, of which the square is 2^-19. */
-RT__INLINE void rt__terms(const rt__rays *r, const rt__shape *shape, rt__f *b, rt__f *c,
-                          rt__f *size)
+ *     |error of c|  <  doubt = (RT__DOUBT s)^2;     low = c - doubt,  high = c + doubt. */
+#define RT__DOUBT 1.953125e-3f /* 2^-9 */
+
+typedef struct rt__place {
+    rt__f3 origin;
+    rt__f size; /* |C|, scaled by RT__DOUBT */
+    rt__i left; /* the number n of the sphere that the ray leaves on its outside, or ~n on
+                   its inside; or RT__NOWHERE. It is at t = 0, which is no hit */
+    bool near[RT__FEW]; /* a ray starts in this sphere, or so near to its surface that it
+                           may; or a light is there */
+    bool near_any;
+    rt__f low[RT__FEW], high[RT__FEW];
+} rt__place;
+
+#define RT__NOWHERE INT_MAX
+
+RT__INLINE void rt__set_out(const rt__table *s, rt__place *p, rt__f3 origin, rt__i left)
 {
-    const rt__f3 center = rt__all(shape->center);
-    *b = rt__fnma(
-        center.x, r->direction.x,
-        rt__fnma(center.y, r->direction.y, rt__fnma(center.z, r->direction.z, r->ou)));
-    *c = rt__fnma(center.x, r->twice.x,
-                  rt__fnma(center.y, r->twice.y,
-                           rt__fnma(center.z, r->twice.z, r->oo + shape->power)));
-    *size = r->size + shape->size;
+    const rt__f oo = rt__dot(origin, origin);
+    const rt__f3 two = rt__add(origin, origin);
+    const int spheres = s ? s->spheres : 0;
+    rt__i here = left & 0;
+    rt__m close = rt__less(oo, oo);
+    p->origin = origin;
+    p->size = rt__fsqrt(oo) * RT__DOUBT;
+    p->left = left;
+    for (int i = 0; i < spheres; i++, here += 1) {
+        const rt__f size = p->size + s->size[i], doubt = size * size;
+        const rt__f c =
+            rt__fnma(rt__splat(s->x[i]), two.x,
+                     rt__fnma(rt__splat(s->y[i]), two.y,
+                              rt__fnma(rt__splat(s->z[i]), two.z, oo + s->power[i])));
+        const rt__f low = rt__select(rt__same(left, here), rt__splat(1e30f), c - doubt);
+        close |= rt__less(low, doubt);
+        p->low[i] = low;
+        p->high[i] = c + doubt;
+    }
+    p->near_any = rt__any(close) || (s && s->light_inside);
+    for (int i = 0; p->near_any && i < spheres; i++)
+        p->near[i] = s->by_light[i] || rt__any(rt__less(p->low[i] * 3.0f, p->high[i]));
 }
 
-/* Where the rays enter and leave a box, within 2^-22 of t. */
-RT__INLINE void rt__slab(const rt__rays *r, rt_vec3 min, rt_vec3 max, rt__f *t_in,
-                         rt__f *t_out)
+/* ---- chapters 1 to 3: the nearest hit --------------------------------------------- */
+
+/* What rt_hit says, for a packet, with what chapter 7 wants to know of the material. */
+typedef struct rt__hits {
+    rt__f kind; /* -1: nothing was hit; 0: a diffuse surface; 1: a mirror */
+    rt__i left; /* see rt__place */
+    rt__f3 point, normal, albedo;
+} rt__hits;
+
+/* The nearest shape so far, by key = -a t: the larger, the nearer. That of the shape
+ * number at is best, and maybe too large, but not too small; that of all others is others
+ * or smaller. */
+typedef struct rt__nearest {
+    rt__f best, others;
+    rt__i at;
+} rt__nearest;
+
+#define RT__NEVER -1e30f /* the key of nothing */
+
+/* A shape with this key; NaN: none. */
+RT__INLINE void rt__offer(rt__nearest *n, rt__f key, rt__i at)
 {
-    const rt__f3 low = rt__mul(rt__sub(rt__all(min), r->origin), r->inverse);
-    const rt__f3 high = rt__mul(rt__sub(rt__all(max), r->origin), r->inverse);
+    const rt__m nearer = rt__less(n->best, key);
+    n->others = rt__fmax(rt__fmin(n->best, key), n->others);
+    n->best = rt__fmax(key, n->best);
+    n->at = rt__iselect(nearer, at, n->at);
+}
+
+/* b = <C - O, u> = <C,u> - <O,u>, of which <C,u> is the same for all spheres. Wrong by
+ * 7 roundings of s |u| at most, less than 2^-21 s |u|. */
+RT__INLINE rt__f rt__b(const rt__table *s, int i, rt__f3 u, rt__f ou)
+{
+    return rt__fnma(
+        rt__splat(s->x[i]), u.x,
+        rt__fnma(rt__splat(s->y[i]), u.y, rt__fnma(rt__splat(s->z[i]), u.z, ou)));
+}
+
+/* The key of a sphere, -a t = b + sqrt(b^2 - a c), with c so small that it is not too
+ * small: (b^2 - a c) / a is wrong by 29 roundings of s^2, less than doubt. Where the ray
+ * starts outside, a sphere behind it has b >= 0, and then min(b, 0) makes the
+ * discriminant negative, and its root NaN. */
+RT__INLINE rt__f rt__sphere_key(const rt__table *s, const rt__place *p, int i, rt__i here,
+                                rt__f b, rt__f a)
+{
+    const rt__f zero = rt__splat(0.0f), low = p->low[i];
+    const rt__f discriminant = rt__fnma(a, low, b * rt__fmin(b, zero));
+    const rt__f key = b + rt__fsqrt(discriminant);
+    if (__builtin_expect(!p->near_any, 1) || !p->near[i])
+        return key;
+    /* Inside, it is the larger root; too close to the surface to tell, all is possible. */
+    const rt__f size = p->size + s->size[i], doubt = size * size;
+    const rt__m left_inside = rt__same(p->left, ~here);
+    const rt__m inside = rt__less(low, -3.0f * doubt) | left_inside;
+    const rt__m unclear = rt__less(low, doubt) & rt__no(inside);
+    const rt__f least = rt__fmax(rt__fnma(a, low + 2.0f * doubt, b * b), zero);
+    return rt__select(inside, b - rt__fsqrt(least), rt__select(unclear, zero, key));
+}
+
+/* What rays do with boxes: where they enter and leave one, within 2^-22 of t by three
+ * roundings. Of rays parallel to an axis nothing is sure: they may run in the very plane
+ * of a face. */
+typedef struct rt__slab_rays {
+    rt__f3 origin, inverse;
+    rt__m parallel;
+} rt__slab_rays;
+
+RT__INLINE rt__slab_rays rt__for_boxes(rt__f3 origin, rt__f3 u)
+{
+    rt__slab_rays r;
+    r.origin = origin;
+    r.inverse = rt__vec(1.0f / u.x, 1.0f / u.y, 1.0f / u.z);
+    r.parallel = rt__less(rt__fabs(u.x * u.y * u.z), rt__splat(1e-29f));
+    return r;
+}
+
+RT__INLINE void rt__slab(const rt__table *s, int i, const rt__slab_rays *r, rt__f *t_in,
+                         rt__f *t_out, rt__f *doubt)
+{
+    const rt__f3 min = rt__all(rt_vec(s->x[i], s->y[i], s->z[i]));
+    const rt__f3 max = rt__all(rt_vec(s->max_x[i], s->max_y[i], s->max_z[i]));
+    const rt__f3 low = rt__mul(rt__sub(min, r->origin), r->inverse);
+    const rt__f3 high = rt__mul(rt__sub(max, r->origin), r->inverse);
     *t_in = rt__fmax(rt__fmax(rt__fmin(low.x, high.x), rt__fmin(low.y, high.y)),
                      rt__fmin(low.z, high.z));
     *t_out = rt__fmin(rt__fmin(rt__fmax(low.x, high.x), rt__fmax(low.y, high.y)),
                       rt__fmax(low.z, high.z));
+    *doubt = (rt__fabs(*t_in) + rt__fabs(*t_out)) * (4.0f * FLT_EPSILON);
 }
 
-/* The nearest shape so far: its t is low or more, that of all others is others or more.
- * FLT_MAX: none. */
-typedef struct rt__nearest {
-    rt__f low, others;
-    rt__m at; /* its place in bvh->shapes, in bytes */
-} rt__nearest;
-
-/* A shape that the rays may meet, at low or beyond. */
-RT__INLINE void rt__offer(rt__nearest *n, rt__m may, rt__f low, rt__m at)
+/* All shapes, one after the other. */
+RT__INLINE rt__nearest rt__ask_all(const rt__table *s, const rt__place *p, rt__f3 u,
+                                   rt__f a)
 {
-    low = rt__select(may, low, rt__splat(FLT_MAX));
-    const rt__m nearer = low < n->low;
-    n->others = rt__fmin(n->others, rt__fmax(n->low, low));
-    n->low = rt__fmin(n->low, low);
-    n->at = (rt__m)rt__select(nearer, (rt__f)at, (rt__f)n->at);
-}
-
-/* Chapter 1: t = (-b -+ root) / a. Outside the sphere (c > 0) the smaller root is the
- * one, if the sphere is ahead (b < 0); inside the larger. When in doubt, the smaller
- * one; and of the root what makes t smaller: low may be too low, but not too high. */
-RT__INLINE void rt__near_sphere(const rt__rays *r, rt__f less_over_a, rt__f slack,
-                                const rt__shape *shape, rt__m at, rt__nearest *n)
-{
-    rt__f b, c, size;
-    rt__terms(r, shape, &b, &c, &size);
-    const rt__f doubt = size * size, twice = doubt + doubt;
-    const rt__m inside = rt__sign(c + twice) | (r->inside == at);
-    const rt__f discriminant =
-        rt__fma(r->a, rt__select(inside, -doubt, doubt) - c, b * b);
-    const rt__f root = rt__fsqrt(rt__fmax(discriminant, rt__splat(0.0f)));
-    const rt__m may = inside | ((rt__sign(b) | rt__sign(c - twice)) &
-                                ~(rt__sign(discriminant) | (r->outside == at)));
-    const rt__f t = less_over_a * (b + rt__select(inside, -root, root));
-    rt__offer(n, may, rt__fnma(size, slack, t), at);
-}
-
-/* Chapter 3: the ways in and out of the slabs. Of parallel rays nothing is sure: they may
- * run in the very plane of a face. */
-RT__INLINE void rt__near_box(const rt__rays *r, rt__m parallel, const rt__shape *shape,
-                             rt__m at, rt__nearest *n)
-{
-    rt__f t_in, t_out;
-    rt__slab(r, shape->center, shape->max, &t_in, &t_out);
-    const rt__f doubt = (rt__fabs(t_in) + rt__fabs(t_out)) * (4.0f * FLT_EPSILON);
-    const rt__m may = parallel | ~(rt__sign(t_out - t_in + doubt) | rt__sign(t_out));
-    const rt__f t = rt__select(t_in > 0.0f, t_in, t_out), zero = rt__splat(0.0f);
-    rt__offer(n, may, rt__select(parallel, zero, t - doubt), at);
-}
-
-/* What rt_hit says, for a packet, with what chapter 7 wants to know of the material. */
-typedef struct rt__hits {
-    rt__m found, mirror;
-    rt__m outside, inside; /* the place of the sphere that was hit from there, or -1 */
-    rt__f3 point, normal, albedo;
-} rt__hits;
-
-/* One lane found this. */
-static inline void rt__set_lane(rt__hits *hits, int lane, const rt_hit *hit)
-{
-    hits->found[lane] = -1;
-    hits->mirror[lane] = hit->material->mirror ? -1 : 0;
-    hits->outside[lane] = hits->inside[lane] = -1;
-    hits->point.x[lane] = hit->point.x;
-    hits->point.y[lane] = hit->point.y;
-    hits->point.z[lane] = hit->point.z;
-    hits->normal.x[lane] = hit->normal.x;
-    hits->normal.y[lane] = hit->normal.y;
-    hits->normal.z[lane] = hit->normal.z;
-    hits->albedo.x[lane] = hit->material->albedo.x;
-    hits->albedo.y[lane] = hit->material->albedo.y;
-    hits->albedo.z[lane] = hit->material->albedo.z;
-}
-
-#if RT__LANES <= 8
-/* rt__enter: now the lanes are the boxes of the node. */
-RT__INLINE unsigned rt__enter_lanes(const rt_bvh_node *node, const rt_ray *ray,
-                                    rt_vec3 inverse, float t_max, float *t)
-{
-    unsigned result = 0;
-    for (int k = 0; k < 8; k += RT__LANES) {
-        rt__f3 min, max;
-        memcpy(&min.x, node->min_x + k, sizeof min.x);
-        memcpy(&min.y, node->min_y + k, sizeof min.y);
-        memcpy(&min.z, node->min_z + k, sizeof min.z);
-        memcpy(&max.x, node->max_x + k, sizeof max.x);
-        memcpy(&max.y, node->max_y + k, sizeof max.y);
-        memcpy(&max.z, node->max_z + k, sizeof max.z);
-        const rt__f3 low = rt__mul(rt__sub(min, rt__all(ray->origin)), rt__all(inverse));
-        const rt__f3 high = rt__mul(rt__sub(max, rt__all(ray->origin)), rt__all(inverse));
-        const rt__f t_in =
-            rt__fmax(rt__fmax(rt__fmin(low.x, high.x), rt__fmin(low.y, high.y)),
-                     rt__fmax(rt__fmin(low.z, high.z), rt__splat(0.0f)));
-        const rt__f t_out =
-            rt__fmin(rt__fmin(rt__fmax(low.x, high.x), rt__fmax(low.y, high.y)),
-                     rt__fmin(rt__fmax(low.z, high.z), rt__splat(t_max)));
-        const rt__f early = t_in * (1.0f - 4.0f * FLT_EPSILON);
-        memcpy(t + k, &early, sizeof early);
-        result |= (unsigned)rt__bits(early <= t_out) << k;
+    const rt__f ou = rt__dot(p->origin, u), zero = rt__splat(0.0f);
+    rt__nearest n;
+    n.best = n.others = rt__splat(RT__NEVER);
+    n.at = (rt__i)zero;
+    rt__i here = (rt__i)zero;
+    for (int i = 0; i < s->spheres; i++, here += 1)
+        rt__offer(&n, rt__sphere_key(s, p, i, here, rt__b(s, i, u, ou), a), here);
+    if (s->spheres == s->count)
+        return n;
+    const rt__slab_rays r = rt__for_boxes(p->origin, u);
+    for (int i = s->spheres; i < s->count; i++, here += 1) {
+        rt__f t_in, t_out, doubt;
+        rt__slab(s, i, &r, &t_in, &t_out, &doubt);
+        const rt__m misses = rt__less(t_out + doubt, t_in) | rt__less(t_out, zero);
+        const rt__f t = rt__select(rt__less(zero, t_in), t_in, t_out);
+        const rt__f key = rt__select(misses, rt__splat(RT__NEVER), (doubt - t) * a);
+        rt__offer(&n, rt__select(r.parallel, zero, key), here);
     }
-    return result & ((1u << node->count) - 1u);
-}
-#else
-#undef rt__enter_lanes
-#define rt__enter_lanes rt__enter_lanes8
-#endif
-
-/* rt_intersect and rt_occluded, one ray after the other, each on its own way through the
- * tree, eight boxes at a time: for scenes with many shapes, and for lanes in doubt. */
-static __attribute__((noinline)) void
-rt__find_in_tree(const rt_scene *scene, const rt__rays *r, rt__m lanes, rt__hits *hits)
-{
-    for (int lane = 0; lane < RT__LANES; lane++) {
-        if (lanes[lane] >= 0)
-            continue;
-        hits->found[lane] = 0;
-        const rt_ray ray = rt__ray_of_lane(r, lane);
-        const int number = rt__search(scene, &ray, FLT_MAX, false, rt__enter_lanes);
-        rt_hit hit;
-        if (number >= 0 && rt__hit_shape(scene, number, &ray, 0.0, &hit))
-            rt__set_lane(hits, lane, &hit);
-    }
-}
-
-static __attribute__((noinline)) rt__m rt__blocked_in_tree(const rt_scene *scene,
-                                                           const rt__rays *r, rt__m lanes)
-{
-    for (int lane = 0; lane < RT__LANES; lane++)
-        if (lanes[lane] < 0) {
-            const rt_ray ray = rt__ray_of_lane(r, lane);
-            lanes[lane] =
-                rt__search(scene, &ray, 1.0f, true, rt__enter_lanes) >= 0 ? -1 : 0;
-        }
-    return lanes;
+    return n;
 }
 
 /* rt__slabs and rt__cut. */
 typedef struct rt__cuts {
     rt__f t_in, t_out;
-    rt__m axis_in, axis_out, miss;
+    rt__i axis_in, axis_out;
+    rt__m miss;
 } rt__cuts;
 
-RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, float low, float high, rt__f o,
+RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, rt__f low, rt__f high, rt__f o,
                              rt__f u)
 {
-    const rt__m none = {0}, here = none + axis;
-    const rt__m parallel = u == 0.0f, up = u > 0.0f;
-    const rt__f all = rt__splat(FLT_MAX);
+    const rt__f zero = rt__splat(0.0f), all = rt__splat(FLT_MAX);
+    const rt__i here = (rt__i)zero + axis;
+    const rt__m parallel = rt__no(rt__less(zero, rt__fabs(u))), up = rt__less(zero, u);
     const rt__f t_low = rt__fmax(rt__fmin((low - o) / u, all), -all);
     const rt__f t_high = rt__fmax(rt__fmin((high - o) / u, all), -all);
     const rt__f t_in = rt__select(parallel, -all, rt__select(up, t_low, t_high));
     const rt__f t_out = rt__select(parallel, all, rt__select(up, t_high, t_low));
-    const rt__m later = t_in > cuts->t_in, sooner = t_out < cuts->t_out;
+    const rt__m later = rt__less(cuts->t_in, t_in), sooner = rt__less(t_out, cuts->t_out);
     cuts->t_in = rt__select(later, t_in, cuts->t_in);
     cuts->t_out = rt__select(sooner, t_out, cuts->t_out);
-    cuts->axis_in = (here & later) | (cuts->axis_in & ~later);
-    cuts->axis_out = (here & sooner) | (cuts->axis_out & ~sooner);
-    cuts->miss |= (parallel & ~((o >= low) & (o <= high))) | ~(t_in <= t_out) |
-                  ~(cuts->t_in <= cuts->t_out);
+    cuts->axis_in = rt__iselect(later, here, cuts->axis_in);
+    cuts->axis_out = rt__iselect(sooner, here, cuts->axis_out);
+    cuts->miss |= (parallel & (rt__less(o, low) | rt__less(high, o))) |
+                  rt__less(t_out, t_in) | rt__less(cuts->t_out, cuts->t_in);
 }
 
-/* rt__pull. */
-RT__INLINE rt__f rt__pull_lanes(rt__f p, rt__f origin)
+/* One coordinate of normal and point: on the plane, if it is through one of this axis that
+ * the ray comes or goes, and pulled back by rt__pull if not. */
+RT__INLINE void rt__face(rt__m here, rt__m inside, rt__f o, rt__f u, rt__f low,
+                         rt__f high, rt__f *normal, rt__f *point)
 {
-    const rt__f step = FLT_EPSILON * (4.0f * rt__fabs(p - origin) + rt__fabs(p));
-    const rt__m up = p > origin;
-    const rt__f back = rt__select(up, p - step, p + step);
-    return rt__select((back > origin) ^ up, origin, back);
-}
-
-/* One coordinate of normal and point, if the ray comes or goes through a plane of this
- * axis. */
-RT__INLINE void rt__face(rt__m here, rt__m inside, rt__f u, float low, float high,
-                         rt__f *normal, rt__f *point)
-{
-    const rt__m up = u > 0.0f;
-    const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
+    const rt__f p = *point, zero = rt__splat(0.0f), one = rt__splat(1.0f);
+    const rt__f step = FLT_EPSILON * (4.0f * rt__fabs(p - o) + rt__fabs(p));
+    const rt__m forth = rt__less(o, p), up = rt__less(zero, u);
+    const rt__f back = rt__select(forth, p - step, p + step);
+    const rt__f pulled = rt__select(rt__less(o, back) ^ forth, o, back);
     *normal = rt__select(here, rt__select(up, -one, one), zero);
-    *point = rt__select(here, rt__select(up ^ inside, rt__splat(low), rt__splat(high)),
-                        *point);
+    *point = rt__select(here, rt__select(up ^ inside, low, high), pulled);
 }
 
-/* rt_hit_box, for lanes whose nearest shape is this box, unless another one is as near;
- * returns those for which that is settled. */
-RT__INLINE rt__m rt__finish_box(const rt__rays *r, rt__m lanes, const rt__shape *box,
-                                rt__f others, rt__hits *hits)
+/* rt_hit_box, for lanes whose nearest shape is a box, if the hit is nearer than limit;
+ * returns those for which that is so. */
+static __attribute__((noinline)) rt__m
+rt__finish_boxes(const rt__table *s, const rt__place *p, const rt__f3 *direction,
+                 rt__m lanes, const rt__i *at, const rt__f *limit, rt__hits *hits)
 {
-    const rt_vec3 min = box->center, max = box->max;
-    const rt__f3 o = r->origin, u = r->direction;
-    const rt__m none = {0};
+    const rt__f3 o = p->origin, u = *direction;
+    const rt__f3 low =
+        rt__vec(rt__pick(s->x, *at, s->count), rt__pick(s->y, *at, s->count),
+                rt__pick(s->z, *at, s->count));
+    const rt__f3 high =
+        rt__vec(rt__pick(s->max_x, *at, s->count), rt__pick(s->max_y, *at, s->count),
+                rt__pick(s->max_z, *at, s->count));
+    const rt__f zero = rt__splat(0.0f);
+    const rt__i x = (rt__i)zero, y = x + 1, z = x + 2;
     rt__cuts cuts;
     cuts.t_out = rt__splat(FLT_MAX);
     cuts.t_in = -cuts.t_out;
-    cuts.axis_in = cuts.axis_out = cuts.miss = none;
-    rt__cut_axis(&cuts, 0, min.x, max.x, o.x, u.x);
-    rt__cut_axis(&cuts, 1, min.y, max.y, o.y, u.y);
-    rt__cut_axis(&cuts, 2, min.z, max.z, o.z, u.z);
-    const rt__m inside = ~(cuts.t_in > 0.0f);
+    cuts.axis_in = cuts.axis_out = x;
+    cuts.miss = rt__less(zero, zero);
+    rt__cut_axis(&cuts, 0, low.x, high.x, o.x, u.x);
+    rt__cut_axis(&cuts, 1, low.y, high.y, o.y, u.y);
+    rt__cut_axis(&cuts, 2, low.z, high.z, o.z, u.z);
+    const rt__m inside = rt__no(rt__less(zero, cuts.t_in));
     const rt__f t = rt__select(inside, cuts.t_out, cuts.t_in);
-    const rt__m axis = (cuts.axis_out & inside) | (cuts.axis_in & ~inside);
-    const rt__m good = lanes & ~cuts.miss & (t > 0.0f) & (t < others);
-    const rt__f3 p = rt__add(o, rt__scale(u, t));
-    rt__f3 normal, point = rt__vec(rt__pull_lanes(p.x, o.x), rt__pull_lanes(p.y, o.y),
-                                   rt__pull_lanes(p.z, o.z));
-    rt__face(axis == 0, inside, u.x, min.x, max.x, &normal.x, &point.x);
-    rt__face(axis == 1, inside, u.y, min.y, max.y, &normal.y, &point.y);
-    rt__face(axis == 2, inside, u.z, min.z, max.z, &normal.z, &point.z);
+    const rt__i axis = rt__iselect(inside, cuts.axis_out, cuts.axis_in);
+    const rt__m good = lanes & rt__no(cuts.miss) & rt__less(zero, t) &
+                       rt__less(rt__dot(u, u) * t, *limit);
+    rt__f3 normal, point = rt__add(o, rt__scale(u, t));
+    rt__face(rt__same(axis, x), inside, o.x, u.x, low.x, high.x, &normal.x, &point.x);
+    rt__face(rt__same(axis, y), inside, o.y, u.y, low.y, high.y, &normal.y, &point.y);
+    rt__face(rt__same(axis, z), inside, o.z, u.z, low.z, high.z, &normal.z, &point.z);
     hits->normal = rt__vselect(good, normal, hits->normal);
     hits->point = rt__vselect(good, point, hits->point);
-    hits->albedo = rt__vselect(good, rt__all(box->albedo), hits->albedo);
-    hits->mirror = (hits->mirror & ~good) | (good & -(int32_t)(box->kind - 2.0f));
-    hits->outside |= good;
-    hits->inside |= good;
+    hits->left = rt__iselect(good, x + RT__NOWHERE, hits->left);
     return good;
 }
 
-/* rt_hit_sphere once more, to the end and in double, each lane with the sphere that is
- * nearest to it; and the boxes. */
-RT__INLINE void rt__finish(const rt_scene *scene, const rt__rays *r, rt__m lanes,
-                           const rt__nearest *n, rt__hits *hits)
+/* rt__meet_sphere and rt__hit_sphere_at in double, each lane with the sphere that is
+ * nearest to it. Returns t; what chapter 1 does in rare cases only is left to others, see
+ * rt__find. */
+RT__INLINE rt__f rt__finish_spheres(const rt__table *s, const rt__place *p, rt__f3 u,
+                                    rt__i at, rt__f radius, rt__hits *hits)
 {
-    const rt__m none = n->low == FLT_MAX;
-    const rt__d nought = {0.0};
-    rt__f field[8]; /* center, radius, albedo, kind */
-    int32_t places[RT__LANES];
-    memcpy(places, &n->at, sizeof places);
-    rt__gather(scene->bvh->shapes, places, field);
-    rt__d3 o[2], u[2], center[2], points[2], normals[2];
-    rt__d radius[2], ts[2], aways[2], few[2];
-    rt__vhalves(r->origin, o);
-    rt__vhalves(r->direction, u);
-    rt__vhalves(rt__vec(field[0], field[1], field[2]), center);
-    rt__halves(field[3], radius);
+    const rt__f3 center =
+        rt__vec(rt__pick(s->x, at, s->count), rt__pick(s->y, at, s->count),
+                rt__pick(s->z, at, s->count));
+    rt__d3 o[2], v[2], mid[2], points[2], normals[2];
+    rt__d r[2], ts[2];
+    rt__vhalves(p->origin, o);
+    rt__vhalves(u, v);
+    rt__vhalves(center, mid);
+    rt__halves(radius, r);
     for (int h = 0; h < 2; h++) {
-        const rt__d3 f = rt__dsub(o[h], center[h]);
-        const rt__d a = rt__ddot(u[h], u[h]), b = rt__ddot(f, u[h]);
-        const rt__d c = rt__ddot(f, f) - radius[h] * radius[h];
-        const rt__d discriminant = b * b - a * c;
-        const rt__d root = rt__dsqrt(discriminant), first = -b - root;
-        ts[h] = rt__dselect(first > nought, first, -b + root) / a;
-        few[h] = radius[h] * radius[h] - 1e-10 * rt__ddot(f, f);
-        const rt__d3 m = rt__dscale(rt__dmad(f, ts[h], u[h]), 1.0 / radius[h]);
-        const rt__d nn = rt__ddot(m, m);
-        const rt__d3 n3 = rt__dscale(m, 1.5 - 0.5 * nn);
-        points[h] = rt__dmad(center[h], radius[h], n3);
-        aways[h] = rt__ddot(n3, u[h]);
-        normals[h] =
-            rt__dscale(n3, rt__dselect(aways[h] > nought, nought - 1.0, nought + 1.0));
+        const rt__d3 f = rt__dsub(o[h], mid[h]);
+        const rt__d a = rt__ddot(v[h], v[h]), b = rt__ddot(f, v[h]);
+        const rt__d c = rt__ddot(f, f) - r[h] * r[h];
+        const rt__d root = rt__dsqrt(b * b - a * c);
+        rt__d minus_at = b + root;
+        if (__builtin_expect(p->near_any, 0)) { /* inside, the other root */
+            const rt__l in = minus_at > 0.0;
+            minus_at = (rt__d)((in & (rt__l)(b - root)) | (~in & (rt__l)minus_at));
+        }
+        ts[h] = minus_at / -a;
+        const rt__d3 m = rt__dscale(rt__dmad(f, ts[h], v[h]), 1.0 / r[h]);
+        normals[h] = rt__dscale(m, 1.5 - 0.5 * rt__ddot(m, m));
+        points[h] = rt__dmad(mid[h], r[h], normals[h]);
     }
-    const rt__f t = rt__join(ts), kind = field[7];
-    const rt__m within = rt__join(aways) > 0.0f;
-    hits->found = ~none;
-    hits->mirror = kind == 1.0f;
-    hits->outside = n->at | within;
-    hits->inside = n->at | ~within;
     hits->point = rt__vjoin(points);
     hits->normal = rt__vjoin(normals);
-    hits->albedo = rt__vec(field[4], field[5], field[6]);
-    /* a sphere, surely the nearest, by the root that chapter 1 takes, not too small */
-    rt__m ask = lanes & ~(none | ((kind < 2.0f) & (t > 1e-30f) & (rt__join(few) > 0.0f) &
-                                  (t < n->others) & (hits->normal.x == hits->normal.x)));
-    if (rt__bits(ask) == 0)
-        return;
-    const rt__shape *box = scene->bvh->shapes + scene->sphere_count;
-    int at = scene->sphere_count * (int)sizeof *box;
-    for (int i = 0; i < scene->box_count; i++, box++, at += (int)sizeof *box) {
-        const rt__m those = ask & (n->at == at);
-        if (rt__bits(those) != 0)
-            ask &= ~rt__finish_box(r, those, box, n->others, hits);
-    }
-    if (rt__bits(ask) != 0)
-        rt__find_in_tree(scene, r, ask, hits);
+    return rt__join(ts[0], ts[1]);
 }
 
-/* rt_intersect of a scene with few shapes: all rays ask one shape after the other. */
-RT__INLINE void rt__find(const rt_scene *scene, const rt__rays *r, rt__m lanes,
+static void rt__find_in_tree(const rt_scene *scene, const rt__place *p,
+                             const rt__f3 *direction, unsigned lanes, rt__hits *hits);
+
+/* rt_intersect of a scene with few shapes. */
+RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m lanes,
                          rt__hits *hits)
 {
-    const rt_bvh *bvh = scene->bvh;
-    const rt__shape *shape = bvh->shapes, *const boxes = shape + bvh->sphere_count,
-                    *const end = boxes + bvh->box_count;
-    const rt__f less_over_a = -1.0f / r->a;
-    const rt__f slack =
-        rt__fsqrt(-less_over_a) * (9.5367431640625e-7f / RT__DOUBT /* 2^-20 */);
-    const rt__m parallel = rt__parallel(r->direction);
-    rt__m at = lanes & ~lanes;
-    rt__nearest n;
-    n.low = n.others = rt__splat(FLT_MAX);
-    n.at = at;
-    for (; shape < boxes; shape++, at += (int)sizeof *shape)
-        rt__near_sphere(r, less_over_a, slack, shape, at, &n);
-    for (; shape < end; shape++, at += (int)sizeof *shape)
-        rt__near_box(r, parallel, shape, at, &n);
-    rt__finish(scene, r, lanes, &n, hits);
+    const rt__table *s = job->table;
+    const rt__f a = rt__dot(u, u), zero = rt__splat(0.0f);
+    const rt__nearest n = rt__ask_all(s, p, u, a);
+    const rt__m missed = rt__less(n.best, rt__splat(0.5f * RT__NEVER));
+    const rt__f radius = rt__pick(s->radius, n.at, s->count);
+    const rt__f t = rt__finish_spheres(s, p, u, n.at, radius, hits);
+    /* the side that the ray comes from; so flat, only chapter 1 can tell */
+    const rt__f toward = rt__dot(hits->normal, u);
+    const rt__m within = rt__less(zero, toward);
+    const rt__m flat = rt__less(rt__fabs(toward), rt__splat(4e-6f));
+    hits->normal =
+        rt__vselect(within, rt__scale(hits->normal, rt__splat(-1.0f)), hits->normal);
+    hits->left = rt__iselect(within, ~n.at, n.at);
+    hits->kind = rt__select(missed, rt__splat(-1.0f), rt__pick(s->kind, n.at, s->count));
+    hits->albedo =
+        rt__vec(rt__pick(s->red, n.at, s->count), rt__pick(s->green, n.at, s->count),
+                rt__pick(s->blue, n.at, s->count));
+    /* Nearer than any other? The others' keys are wrong by b and two roundings more, in
+     * all less than 2^-20 s |u|. Not at t = 0, nor from more than some 9e4 radii away,
+     * where chapter 1 takes another way. */
+    const rt__f slack = (p->size + s->largest) * (1.9073486328125e-6f / RT__DOUBT);
+    const rt__f limit = -n.others - slack * (0.5f * a + 0.5f);
+    const rt__m sphere = rt__less(zero, radius);
+    const rt__m good = sphere & rt__less(rt__splat(1e-30f), t) & rt__less(a * t, limit) &
+                       rt__less(t * t * a, radius * radius * 8e9f) & rt__no(flat);
+    rt__m ask = lanes & rt__no(missed | good);
+    if (!rt__any(ask))
+        return;
+    const rt__m boxes = ask & rt__no(sphere);
+    if (rt__any(boxes))
+        ask &= rt__no(rt__finish_boxes(s, p, &u, boxes, &n.at, &limit, hits));
+    if (rt__any(ask))
+        rt__find_in_tree(job->scene, p, &u, rt__bits(ask), hits);
 }
 
-/* ---- chapter 4 ------------------------------------------------------------------- */
+/* ---- chapter 8: alone through the tree -------------------------------------------- */
 
-/* What stands between the origins (t = 0) and the light (t = 1)? sure: that does; unsure:
- * that may. */
-typedef struct rt__shade {
-    rt__m sure, unsure;
-} rt__shade;
+#if RT__LANES == 16 /* a node has eight boxes, in eight lanes */
+typedef float rt__boxes __attribute__((vector_size(32)));
+#define rt__bmin(a, b) ((rt__boxes)_mm256_min_ps((__m256)(a), (__m256)(b)))
+#define rt__bmax(a, b) ((rt__boxes)_mm256_max_ps((__m256)(a), (__m256)(b)))
+#define rt__bnot_less(a, b)                                                              \
+    ((unsigned)_mm256_movemask_ps(_mm256_cmp_ps((__m256)(a), (__m256)(b), _CMP_NLT_UQ)))
+#else
+typedef rt__f rt__boxes;
+#define rt__bmin(a, b) rt__fmin(a, b)
+#define rt__bmax(a, b) rt__fmax(a, b)
+#define rt__bnot_less(a, b) rt__bits(~((a) < (b)))
+#endif
 
-/* No root is needed. Let f(t) = |C + t u - O|^2 - R^2 = a t^2 + 2 b t + c, so f(0) = c,
- * f(1) = a + 2b + c; f is negative inside the sphere. If both ends are outside, then the
- * sphere is in the way if the point nearest to its centre, t = -b/a, is on the way and
- * inside: discriminant > 0. If an end is inside, or too close to the surface to tell: if
- * one end is inside and the other is not, then the way crosses the surface. */
-RT__INLINE void rt__blocks_sphere(const rt__rays *r, rt__m lanes, const rt__shape *shape,
-                                  rt__m at, rt__shade *shade)
+/* rt__trim. */
+RT__INLINE void rt__trim_boxes(const float *min, const float *max, float origin,
+                               float inverse, rt__boxes *t_in, rt__boxes *t_out)
 {
-    rt__f b, c, size;
-    rt__terms(r, shape, &b, &c, &size);
-    const rt__f doubt = size * size, twice = doubt + doubt, a = r->a;
-    const rt__f end = rt__fma(b, rt__splat(2.0f), a) + c;
-    const rt__f discriminant = rt__fnma(a, c, b * b);
-    const rt__m left = r->outside == at;
-    const rt__m passes = rt__sign(b) & ~(rt__sign(a + b) | left);
-    const rt__m no_doubt = ~rt__sign(rt__fnma(a, doubt, discriminant));
-    const rt__m possible = ~rt__sign(rt__fma(a, doubt, discriminant));
-    const rt__m ends = rt__sign(rt__fmin(c, end) - twice) & lanes & ~left;
-    if (__builtin_expect(rt__bits(ends) == 0, 1)) {
-        shade->sure |= passes & no_doubt;
-        shade->unsure |= passes & possible;
-    } else {
-        const rt__f start = rt__select(r->inside == at, -twice - twice, c);
-        const rt__m unclear =
-            rt__sign(rt__fabs(start) - twice) | rt__sign(rt__fabs(end) - twice);
-        const rt__m crosses = rt__sign(start) ^ rt__sign(end);
-        const rt__m out = ~(rt__sign(start) | rt__sign(end)) & passes;
-        shade->sure |= (crosses | (out & no_doubt)) & ~unclear & ~left;
-        shade->unsure |= (unclear | (out & possible)) & ~left;
+    rt__boxes low, high;
+    memcpy(&low, min, sizeof low);
+    memcpy(&high, max, sizeof high);
+    low = (low - origin) * inverse;
+    high = (high - origin) * inverse;
+    *t_in = rt__bmax(*t_in, rt__bmin(low, high));
+    *t_out = rt__bmin(*t_out, rt__bmax(low, high));
+}
+
+/* rt__enter: the lanes are the boxes of the node. */
+RT__INLINE unsigned rt__enter_boxes(const rt_bvh_node *node, const rt_ray *ray,
+                                    rt_vec3 inverse, float t_max, float *t)
+{
+    const rt_vec3 o = ray->origin;
+    const int step = (int)(sizeof(rt__boxes) / sizeof(float));
+    unsigned result = 0;
+    for (int k = 0; k < 8; k += step) {
+        rt__boxes t_in = {0.0f}, t_out = t_in + t_max;
+        rt__trim_boxes(node->min_x + k, node->max_x + k, o.x, inverse.x, &t_in, &t_out);
+        rt__trim_boxes(node->min_y + k, node->max_y + k, o.y, inverse.y, &t_in, &t_out);
+        rt__trim_boxes(node->min_z + k, node->max_z + k, o.z, inverse.z, &t_in, &t_out);
+        t_in = t_in * (1.0f - 4.0f * FLT_EPSILON);
+        memcpy(t + k, &t_in, sizeof t_in);
+        result |= rt__bnot_less(t_out, t_in) << k;
+    }
+    return result & ((1u << node->count) - 1u);
+}
+
+RT__INLINE rt_vec3 rt__lane(rt__f3 v, int lane)
+{
+    return rt_vec(v.x[lane], v.y[lane], v.z[lane]);
+}
+
+RT__INLINE void rt__set_lane(rt__f3 *v, int lane, rt_vec3 to)
+{
+    v->x[lane] = to.x;
+    v->y[lane] = to.y;
+    v->z[lane] = to.z;
+}
+
+/* rt_intersect and rt_occluded, one ray after the other: for scenes with many shapes, and
+ * for lanes in doubt. Here a rare shape, or one that is hard to do in lanes, would be
+ * asked, too. */
+static __attribute__((noinline)) void rt__find_in_tree(const rt_scene *scene,
+                                                       const rt__place *p,
+                                                       const rt__f3 *direction,
+                                                       unsigned lanes, rt__hits *hits)
+{
+    for (; lanes != 0; lanes &= lanes - 1u) {
+        const int lane = rt__lowest(lanes);
+        rt_ray ray;
+        rt_hit hit;
+        ray.origin = rt__lane(p->origin, lane);
+        ray.direction = rt__lane(*direction, lane);
+        const int number = rt__search(scene, &ray, FLT_MAX, false, rt__enter_boxes);
+        if (number < 0 || !rt__hit_shape(scene, number, &ray, 0.0, &hit)) {
+            hits->kind[lane] = -1.0f;
+            continue;
+        }
+        hits->kind[lane] = hit.material->mirror ? 1.0f : 0.0f;
+        hits->left[lane] = RT__NOWHERE;
+        rt__set_lane(&hits->point, lane, hit.point);
+        rt__set_lane(&hits->normal, lane, hit.normal);
+        rt__set_lane(&hits->albedo, lane, hit.material->albedo);
     }
 }
 
-RT__INLINE void rt__blocks_box(const rt__rays *r, rt__m parallel, const rt__shape *shape,
-                               rt__shade *shade)
+/* The lanes that do not see the light at t = 1. */
+static __attribute__((noinline)) rt__m rt__blocked_in_tree(const rt_scene *scene,
+                                                           const rt__place *p,
+                                                           const rt__f3 *direction,
+                                                           unsigned lanes)
 {
-    const rt__f few = rt__splat(4.0f * FLT_EPSILON), zero = rt__splat(0.0f);
-    rt__f t_in, t_out;
-    rt__slab(r, shape->center, shape->max, &t_in, &t_out);
-    const rt__f t = rt__select(t_in > zero, t_in, t_out), long_in = t_out - t_in;
-    const rt__m doubt =
-        parallel |
-        rt__sign(rt__fabs(long_in) - (rt__fabs(t_in) + rt__fabs(t_out)) * few) |
-        rt__sign(rt__fabs(t - 1.0f) - few - few);
-    const rt__m blocks = (t_in <= t_out) & (t > zero) & (t < 1.0f);
-    shade->sure |= blocks & ~doubt;
-    shade->unsure |= doubt;
+    rt__f blocked = {0.0f};
+    for (; lanes != 0; lanes &= lanes - 1u) {
+        const int lane = rt__lowest(lanes);
+        rt_ray ray;
+        ray.origin = rt__lane(p->origin, lane);
+        ray.direction = rt__lane(*direction, lane);
+        blocked[lane] =
+            rt__search(scene, &ray, 1.0f, true, rt__enter_boxes) >= 0 ? 1.0f : 0.0f;
+    }
+    return rt__less(rt__splat(0.0f), blocked);
 }
 
-/* rt_occluded up to t = 1, of a scene with few shapes. */
-RT__INLINE rt__m rt__blocked(const rt_scene *scene, const rt__rays *r, rt__m lanes)
+/* ---- chapter 4: shadows ------------------------------------------------------------ */
+
+/* The lanes that do not see the light at t = 1, with few shapes; in *unsure those that
+ * may.
+ *
+ * No root is needed. Both ends of the way lie outside the sphere, which is then in the
+ * way if the point nearest to its centre, t = -b/a, is on it and inside: b^2 > a c. Where
+ * an end may be inside, f(t) = a t^2 + 2 b t + c, so f(0) = c, f(1) = a + 2b + c, is
+ * negative inside the sphere: if one end is inside and the other is not, then the way
+ * crosses the surface. */
+RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt__i here,
+                               rt__f b, rt__f a, rt__m *sure, rt__m *unsure)
 {
-    const rt_bvh *bvh = scene->bvh;
-    const rt__shape *shape = bvh->shapes, *const boxes = shape + bvh->sphere_count,
-                    *const end = boxes + bvh->box_count;
-    rt__m at = lanes & ~lanes;
-    rt__shade shade;
-    shade.sure = shade.unsure = at;
-    for (; shape < boxes; shape++, at += (int)sizeof *shape)
-        rt__blocks_sphere(r, lanes, shape, at, &shade);
-    const rt__m parallel = rt__parallel(r->direction);
-    for (; shape < end; shape++)
-        rt__blocks_box(r, parallel, shape, &shade);
-    const rt__m sure = shade.sure >> 31, unsure = lanes & (shade.unsure >> 31) & ~sure;
-    if (rt__bits(unsure) != 0)
-        return sure | rt__blocked_in_tree(scene, r, unsure);
+    const rt__f size = p->size + s->size[i], doubt = size * size, twice = doubt + doubt;
+    const rt__f zero = rt__splat(0.0f), c = p->high[i] - doubt, bb = b * b;
+    const rt__m left = rt__same(p->left, here);
+    const rt__f start = rt__select(rt__same(p->left, ~here), -2.0f * twice, c);
+    const rt__f end = rt__fma(b, rt__splat(2.0f), a) + c;
+    const rt__m unclear =
+        rt__less(rt__fabs(start), twice) | rt__less(rt__fabs(end), twice);
+    const rt__m from = rt__less(start, zero), to = rt__less(end, zero);
+    const rt__m out = rt__no(from | to) & rt__less(b, zero) & rt__less(-a, b);
+    *sure |=
+        ((from ^ to) | (out & rt__less(a * p->high[i], bb))) & rt__no(unclear | left);
+    *unsure |= (unclear | (out & rt__less(a * (c - doubt), bb))) & rt__no(left);
+}
+
+RT__INLINE rt__m rt__shade(const rt__table *s, const rt__place *p, rt__f3 u, rt__m lanes,
+                           rt__m *unsure)
+{
+    const rt__f a = rt__dot(u, u), ou = rt__dot(p->origin, u), zero = rt__splat(0.0f);
+    const rt__f over_a = 1.0f / a, minus_a = -a;
+    rt__m sure = rt__less(zero, zero), may = sure;
+    for (int i = 0; i < s->spheres; i++) {
+        const rt__f b = rt__b(s, i, u, ou), bb_over_a = b * b * over_a;
+        if (__builtin_expect(p->near_any, 0) && p->near[i]) {
+            rt__shade_near(s, p, i, (rt__i)zero + i, b, a, &sure, &may);
+            continue;
+        }
+        const rt__m ahead = rt__and_less(rt__less(b, zero), minus_a, b);
+        may |= rt__and_less(ahead, p->low[i], bb_over_a);
+        sure |= rt__and_less(ahead, p->high[i], bb_over_a);
+    }
+    if (s->spheres < s->count) {
+        const rt__slab_rays r = rt__for_boxes(p->origin, u);
+        const rt__f one = rt__splat(1.0f), few = rt__splat(8.0f * FLT_EPSILON);
+        for (int i = s->spheres; i < s->count; i++) {
+            rt__f t_in, t_out, doubt;
+            rt__slab(s, i, &r, &t_in, &t_out, &doubt);
+            const rt__f t = rt__select(rt__less(zero, t_in), t_in, t_out);
+            const rt__m unclear = r.parallel | rt__less(rt__fabs(t_out - t_in), doubt) |
+                                  rt__less(rt__fabs(t - 1.0f), few);
+            const rt__m blocks =
+                rt__no(rt__less(t_out, t_in)) & rt__less(zero, t) & rt__less(t, one);
+            sure |= blocks & rt__no(unclear);
+            may |= unclear;
+        }
+    }
+    *unsure = lanes & may & rt__no(sure);
     return sure;
 }
 
 /* rt_leave. */
-RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__f3 direction)
+RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__m below)
 {
     const rt__f size = rt__fmax(rt__fmax(rt__splat(1.0f), rt__fabs(point.x)),
                                 rt__fmax(rt__fabs(point.y), rt__fabs(point.z)));
     const rt__f offset = size * (8.0f * FLT_EPSILON);
-    const rt__m below = rt__dot(normal, direction) < 0.0f;
     return rt__add(point, rt__scale(normal, rt__select(below, -offset, offset)));
 }
 
-/* Rays that go on from where others hit. A reflection so flat that it goes through the
- * surface, or a way back to a light that is nearer than rt_leave's step, leaves
- * nothing. */
-RT__INLINE void rt__depart(rt__rays *r, const rt__hits *hits, rt__f3 origin,
-                           rt__f3 direction)
-{
-    const rt__m through = rt__dot(hits->normal, direction) < 0.0f;
-    rt__aim(r, origin, direction, hits->outside | through, hits->inside | through);
-}
-
-/* rt_direct and rt_lambert; *rays counts the rays of each lane. */
-RT__INLINE rt__f3 rt__light(const rt__job *job, rt__m lanes, const rt__hits *hits,
-                            rt__m *rays)
+/* rt_direct, rt_visible and rt_lambert. A new kind of light gets its own way to choose
+ * position and intensity here; the rest stays. */
+RT__INLINE rt__f3 rt__light(const rt__job *job, const rt__place *p, rt__m lanes,
+                            const rt__hits *hits, uint64_t *rays)
 {
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__splat(0.0f);
@@ -4020,17 +3758,23 @@ RT__INLINE rt__f3 rt__light(const rt__job *job, rt__m lanes, const rt__hits *hit
         const rt__f3 position = rt__all(scene->lights[i].position);
         const rt__f3 to_light = rt__sub(position, hits->point);
         const rt__f toward = rt__dot(hits->normal, to_light);
-        const rt__m lit = lanes & (toward > 0.0f);
-        if (rt__bits(lit) == 0)
+        const rt__m lit = lanes & rt__less(zero, toward);
+        if (!rt__any(lit))
             continue;
-        *rays -= lit;
-        rt__rays shadow;
-        const rt__f3 origin = rt__leave(hits->point, hits->normal, to_light);
-        rt__depart(&shadow, hits, origin, rt__sub(position, origin));
-        const rt__m blocked = job->by_tree ? rt__blocked_in_tree(scene, &shadow, lit)
-                                           : rt__blocked(scene, &shadow, lit);
+        *rays += rt__count(lit);
+        const rt__f3 u = rt__sub(position, p->origin);
+        rt__m blocked = rt__less(zero, zero), unsure = lit;
+        if (job->table) {
+            /* a light nearer than the step that rt_leave makes lies behind us */
+            const rt__m through = lit & rt__less(rt__dot(hits->normal, u), zero);
+            blocked = rt__shade(job->table, p, u, lit, &unsure) & rt__no(through);
+            unsure |= through;
+        }
+        if (rt__any(unsure))
+            blocked |= rt__blocked_in_tree(scene, p, &u, rt__bits(unsure));
         const rt__f dd = rt__dot(to_light, to_light);
-        const rt__m counts = lit & ~blocked & (dd > 1e-20f) & (dd <= FLT_MAX);
+        const rt__m counts = lit & rt__no(blocked) & rt__less(rt__splat(1e-20f), dd) &
+                             rt__no(rt__less(rt__splat(FLT_MAX), dd));
         const rt__f cosine = toward / rt__fsqrt(dd);
         const rt__f3 light =
             rt__scale(rt__mul(hits->albedo, rt__all(scene->lights[i].intensity)),
@@ -4042,7 +3786,7 @@ RT__INLINE rt__f3 rt__light(const rt__job *job, rt__m lanes, const rt__hits *hit
 
 /* ---- chapters 7 and 9: random numbers, directions -------------------------------- */
 
-/* rt_hash, rt__reverse, rt__scramble */
+/* rt_hash */
 RT__INLINE rt__u rt__mix(rt__u v)
 {
     const rt__u state = v * 747796405u + 2891336453u;
@@ -4050,15 +3794,17 @@ RT__INLINE rt__u rt__mix(rt__u v)
     return (word >> 22) ^ word;
 }
 
+/* rt__reverse */
 RT__INLINE rt__u rt__backwards(rt__u v)
 {
-#if RT__LANES >= 8 /* bytes in reverse order, and a table for each half of a byte */
-    const __m128i bytes = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
+#ifdef RT__X86 /* bytes in reverse order, and a table for each half of a byte */
+    const __m128i order = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
     const __m128i table = _mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800);
-    const rt__u zero = {0}, halves = zero + 0x0f0f0f0fu;
-    const rt__u w = rt__look_up(bytes, v, true);
-    return rt__look_up(table, w & halves, false) << 4 |
-           rt__look_up(table, w >> 4 & halves, false);
+    const rt__u w = (rt__u)rt__shuffle((rt__bytes)v, rt__rows(order));
+    const rt__bytes low = (rt__bytes)(w & 0x0f0f0f0fu),
+                    high = (rt__bytes)(w >> 4 & 0x0f0f0f0fu);
+    return (rt__u)rt__shuffle(rt__rows(table), low) << 4 |
+           (rt__u)rt__shuffle(rt__rows(table), high);
 #else
     v = v << 16 | v >> 16;
     v = (v & 0x00ff00ffu) << 8 | (v >> 8 & 0x00ff00ffu);
@@ -4068,6 +3814,7 @@ RT__INLINE rt__u rt__backwards(rt__u v)
 #endif
 }
 
+/* rt__scramble */
 RT__INLINE rt__u rt__owen(rt__u v, rt__u key)
 {
     v ^= v * 0x3d20adeau;
@@ -4085,7 +3832,7 @@ typedef struct rt__numbers {
 
 RT__INLINE rt__f rt__to_unit(rt__u bits)
 {
-    return (__builtin_convertvector((rt__m)(bits >> 9), rt__f) + 0.5f) *
+    return (__builtin_convertvector((rt__i)(bits >> 9), rt__f) + 0.5f) *
            (1.0f / 8388608.0f);
 }
 
@@ -4114,7 +3861,7 @@ RT__INLINE void rt__draw(const rt__numbers *n, rt__f *r1, rt__f *r2)
 /* rt_sincos of turns in (0, 1), rt_basis and rt_sample_cosine. */
 RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
 {
-    const rt__m quarter = __builtin_convertvector(r1 * 4.0f + 0.5f, rt__m);
+    const rt__i quarter = __builtin_convertvector(r1 * 4.0f + 0.5f, rt__i);
     const rt__f x =
         (r1 * 4.0f - __builtin_convertvector(quarter, rt__f)) * 1.57079632679f;
     const rt__f xx = x * x;
@@ -4122,12 +3869,13 @@ RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
     const rt__f c4 = 4.1666645683e-2f + xx * (-1.3887316255e-3f + xx * 2.4433157118e-5f);
     const rt__f s = x + x * xx * s3;
     const rt__f c = 1.0f + (xx * xx * c4 - 0.5f * xx);
-    const rt__m odd = (quarter & 1) != 0;
-    const rt__f sine_size = rt__select(odd, c, s), cosine_size = rt__select(odd, s, c);
-    const rt__f sine = rt__select((quarter & 2) != 0, -sine_size, sine_size);
-    const rt__f cosine = rt__select(((quarter + 1) & 2) != 0, -cosine_size, cosine_size);
+    const rt__m even = rt__same(quarter & 1, quarter & 0);
+    const rt__f sine_size = rt__select(even, s, c), cosine_size = rt__select(even, c, s);
+    const rt__f sine = (rt__f)((rt__i)sine_size ^ ((quarter & 2) << 30));
+    const rt__f cosine = (rt__f)((rt__i)cosine_size ^ (((quarter + 1) & 2) << 30));
 
-    const rt__f sign = rt__select(n.z < 0.0f, rt__splat(-1.0f), rt__splat(1.0f));
+    const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
+    const rt__f sign = rt__select(rt__less(n.z, zero), -one, one);
     const rt__f k = -1.0f / (sign + n.z);
     const rt__f m = n.x * n.y * k;
     const rt__f3 a = rt__vec(1.0f + sign * n.x * n.x * k, sign * m, -sign * n.x);
@@ -4140,208 +3888,282 @@ RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
 
 /* ---- the whole path -------------------------------------------------------------- */
 
-/* rt_radiance: *rays counts the rays of each lane. A lane whose path has ended stays
- * until the last one ends. */
-RT__INLINE rt__f3 rt__path(const rt__job *job, rt__rays *r, rt__m lanes,
-                           rt__numbers *numbers, rt__m *rays, rt_watch *watch)
-{
-    const rt_scene *scene = job->scene;
-    const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
-    rt__f3 sum = rt__vec(zero, zero, zero), throughput = rt__vec(one, one, one);
-    for (int bounce = 0;; bounce++) {
-        rt__hits hits;
-        rt__f r1, r2;
-        rt__draw(numbers, &r1, &r2); /* early: while the core waits for roots */
-        *rays -= lanes;
-        rt__tick(watch);
-        if (job->by_tree)
-            rt__find_in_tree(scene, r, lanes, &hits);
-        else
-            rt__find(scene, r, lanes, &hits);
-        const rt__m missed = lanes & ~hits.found;
-        if (rt__bits(missed) != 0) {
-            const rt__f3 light = rt__mul(throughput, rt__all(scene->background));
-            sum = rt__vselect(missed, rt__add(sum, light), sum);
-            lanes &= hits.found;
-        }
-        const rt__m diffuse = lanes & ~hits.mirror;
-        const rt__f3 direct = rt__light(job, diffuse, &hits, rays);
-        sum = rt__vselect(diffuse, rt__add(sum, rt__mul(throughput, direct)), sum);
-        if (bounce >= job->options.bounces || rt__bits(lanes) == 0)
-            return sum;
+/* A packet on its way. A lane whose path has ended stays until the last one ends. */
+typedef struct rt__packet {
+    rt__m lanes; /* whose path goes on */
+    rt__f3 direction, sum, throughput;
+    rt__numbers numbers;
+    rt__hits hits;
+    rt__place place;
+} rt__packet;
 
-        numbers->dimension += (rt__u)diffuse & 2u;
-        const rt__f3 u = r->direction, n = hits.normal;
-        const rt__f3 reflected = rt__sub(u, rt__scale(n, 2.0f * rt__dot(u, n)));
-        const rt__f3 direction =
-            rt__vselect(hits.mirror, reflected, rt__cosine(n, r1, r2));
-        const rt__f3 rho = hits.albedo;
-        const rt__m lossless =
-            hits.mirror & (rho.x == 0.0f) & (rho.y == 0.0f) & (rho.z == 0.0f);
-        throughput = rt__vselect(lossless, throughput, rt__mul(throughput, rho));
-        lanes &= (throughput.x >= FLT_MIN) | (throughput.y >= FLT_MIN) |
-                 (throughput.z >= FLT_MIN);
-        if (job->options.bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
-            rt__f chance = rt__fmax(throughput.x, rt__fmax(throughput.y, throughput.z));
-            chance = rt__fmin(chance, rt__splat(0.95f));
-            rt__draw(numbers, &r1, &r2);
-            numbers->dimension += (rt__u)lanes & 2u;
-            lanes &= r1 < chance;
-            throughput = rt__scale(throughput, 1.0f / chance);
-        }
-        if (rt__bits(lanes) == 0)
-            return sum;
-        rt__depart(r, &hits, rt__leave(hits.point, n, direction), direction);
+/* What rt_radiance does in one round, in three parts. The nearest hit: */
+RT__INLINE void rt__go(const rt__job *job, rt__packet *p)
+{
+    if (job->table)
+        rt__find(job, &p->place, p->direction, p->lanes, &p->hits);
+    else
+        rt__find_in_tree(job->scene, &p->place, &p->direction, rt__bits(p->lanes),
+                         &p->hits);
+}
+
+/* background and direct light; */
+RT__INLINE void rt__collect(const rt__job *job, rt__packet *p, uint64_t *rays)
+{
+    const rt__f zero = rt__splat(0.0f);
+    const rt__hits *hits = &p->hits;
+    const rt__m missed = p->lanes & rt__less(hits->kind, zero);
+    if (rt__any(missed)) {
+        const rt__f3 light = rt__mul(p->throughput, rt__all(job->scene->background));
+        p->sum = rt__vselect(missed, rt__add(p->sum, light), p->sum);
+        p->lanes &= rt__no(missed);
     }
+    const rt__m above = rt__less(zero, zero),
+                diffuse = p->lanes & rt__no(rt__less(zero, hits->kind));
+    rt__set_out(job->table, &p->place, rt__leave(hits->point, hits->normal, above),
+                hits->left);
+    const rt__f3 light = rt__light(job, &p->place, diffuse, hits, rays);
+    p->sum = rt__vselect(diffuse, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+}
+
+/* and the way on. A new kind of material gets its direction here, and a select; one that is rare, lane by lane, by the chapter's own function. */
+RT__INLINE void rt__bounce(const rt__job *job, rt__packet *p, int bounce)
+{
+    const rt__f zero = rt__splat(0.0f);
+    const rt__f3 n = p->hits.normal, u = p->direction, rho = p->hits.albedo;
+    const rt__m mirror = rt__less(zero, p->hits.kind);
+    const rt__u two = ((rt__u)zero | 2u);
+    rt__f r1, r2;
+    rt__draw(&p->numbers, &r1, &r2);
+    p->numbers.dimension += (rt__u)rt__iselect(mirror, zero, two);
+    const rt__f un = rt__dot(u, n);
+    const rt__f3 reflected = rt__sub(u, rt__scale(n, 2.0f * un));
+    p->direction = rt__vselect(mirror, reflected, rt__cosine(n, r1, r2));
+    const rt__m lossless =
+        mirror & rt__no(rt__less(zero, rt__fmax(rho.x, rt__fmax(rho.y, rho.z))));
+    p->throughput = rt__vselect(lossless, p->throughput, rt__mul(p->throughput, rho));
+    rt__f most = rt__fmax(p->throughput.x, rt__fmax(p->throughput.y, p->throughput.z));
+    p->lanes &= rt__no(rt__less(most, rt__splat(FLT_MIN)));
+    if (job->options.bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
+        const rt__f chance = rt__fmin(most, rt__splat(0.95f));
+        rt__draw(&p->numbers, &r1, &r2);
+        p->numbers.dimension += two;
+        p->lanes &= rt__less(r1, chance);
+        p->throughput = rt__scale(p->throughput, 1.0f / chance);
+    }
+    /* a reflection so flat that it goes through the surface */
+    const rt__m flat = p->lanes & mirror & rt__less(rt__fabs(un), rt__splat(1e-5f));
+    if (__builtin_expect(rt__any(flat), 0)) {
+        const rt__m through = rt__less(rt__dot(n, p->direction), zero);
+        rt__set_out(job->table, &p->place, rt__leave(p->hits.point, n, through),
+                    rt__iselect(through, (rt__i)zero + RT__NOWHERE, p->hits.left));
+    }
+}
+
+/* Two packets at a time: while one waits for its roots and quotients, the core works on
+ * the other. */
+enum { RT__FLIGHT = 2 };
+
+RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count,
+                              rt_watch *watch)
+{
+    uint64_t rays = 0;
+    for (int bounce = 0;; bounce++) {
+        int going = 0;
+        for (int k = 0; k < count; k++) {
+            rays += rt__count(packets[k].lanes);
+            rt__tick(watch);
+            rt__go(job, &packets[k]);
+        }
+        for (int k = 0; k < count; k++)
+            rt__collect(job, &packets[k], &rays);
+        if (bounce >= job->options.bounces)
+            return rays;
+        for (int k = 0; k < count; k++) {
+            rt__bounce(job, &packets[k], bounce);
+            going += rt__any(packets[k].lanes) ? 1 : 0;
+        }
+        if (going == 0)
+            return rays;
+    }
+}
+
+/* The first rays, of some pixels from number first on: rt__start, rt__look and
+ * rt__film_ray. */
+RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
+                          rt__packet *p)
+{
+    const int width = job->image->width;
+    const rt__film *film = &job->film;
+    uint32_t seed;
+    const uint32_t index = rt__sequence(job, sample, &seed);
+    const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
+    rt__i lane = (rt__i)zero;
+    for (int k = 0; k < RT__LANES; k++)
+        lane[k] = k;
+    const rt__i pixel = lane + first;
+    int most = first % width + RT__LANES - 1;
+    rt__i column = lane + first % width, row = (rt__i)zero + first / width;
+    for (; most >= width; most -= width) {
+        const rt__i over = (width - 1 - column) >> 31; /* -1: in the next row */
+        column += over & -width;
+        row -= over;
+    }
+    rt__f x = __builtin_convertvector(column, rt__f),
+          y = __builtin_convertvector(row, rt__f);
+    const rt__f inside = __builtin_convertvector(last - pixel, rt__f);
+    rt__numbers *numbers = &p->numbers;
+    numbers->sobol = job->options.sampler == RT_SOBOL;
+    numbers->key =
+        rt__mix((rt__u)pixel + rt_hash((numbers->sobol ? 0 : index) + rt_hash(seed)));
+    numbers->dimension = (rt__u)zero;
+    numbers->sample = (rt__u)zero + rt__reverse(index);
+    rt__f dx, dy;
+    rt__draw(numbers, &dx, &dy);
+    numbers->dimension += 2u;
+    x = x + dx;
+    y = y + dy;
+
+    rt__d xd[2], yd[2];
+    rt__d3 d[2];
+    rt__halves(x, xd);
+    rt__halves(y, yd);
+    for (int h = 0; h < 2; h++) {
+        const rt__d to_right = film->size * (xd[h] - film->half_width);
+        const rt__d to_top = film->size * (film->half_height - yd[h]);
+        d[h].x = film->forward.x + to_right * film->right.x + to_top * film->top.x;
+        d[h].y = film->forward.y + to_right * film->right.y + to_top * film->top.y;
+        d[h].z = film->forward.z + to_right * film->right.z + to_top * film->top.z;
+        d[h] = rt__dscale(d[h], 1.0 / rt__dsqrt(rt__ddot(d[h], d[h])));
+    }
+    p->lanes = rt__less(zero, inside);
+    p->direction = rt__vjoin(d);
+    p->sum = rt__vec(zero, zero, zero);
+    p->throughput = rt__vec(one, one, one);
+    rt__set_out(job->table, &p->place, rt__all(film->position),
+                (rt__i)zero + RT__NOWHERE);
 }
 
 /* rt__step_pixels with rt__pixel. */
 static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int last,
                                  rt_watch *watch, rt_vec3 *values)
 {
-    const int width = job->image->width;
-    const rt__film *film = &job->film;
-    uint32_t seed;
-    const uint32_t index = rt__sequence(job, sample, &seed);
-    const bool sobol = job->options.sampler == RT_SOBOL;
-    const rt__u none = {0};
-    const rt__m nowhere = ~(rt__m)none;
-    rt__m rays = {0};
-    for (int done = 0; done < last - first; done += RT__LANES) {
-        float xs[RT__LANES], ys[RT__LANES];
-        uint32_t pixels[RT__LANES];
-        int32_t inside[RT__LANES];
-        const int left = last - first - done;
-        for (int lane = 0; lane < RT__LANES; lane++) {
-            const int i = first + done + (lane < left ? lane : 0);
-            pixels[lane] = (uint32_t)i;
-            inside[lane] = lane < left ? -1 : 0;
-            xs[lane] = (float)(i % width);
-            ys[lane] = (float)(i / width);
+    rt__packet packets[RT__FLIGHT];
+    uint64_t rays = 0;
+    for (int i = first; i < last;) {
+        int count = 0;
+        for (int from = i; count < RT__FLIGHT && from < last; from += RT__LANES)
+            rt__begin(job, sample, from, last, &packets[count++]);
+        rays += rt__trace(job, packets, count, watch);
+        for (int k = 0; k < count; k++) {
+            float x[RT__LANES], y[RT__LANES], z[RT__LANES];
+            memcpy(x, &packets[k].sum.x, sizeof x);
+            memcpy(y, &packets[k].sum.y, sizeof y);
+            memcpy(z, &packets[k].sum.z, sizeof z);
+            for (int lane = 0; lane < RT__LANES && i < last; lane++)
+                values[i++ - first] = rt_vec(x[lane], y[lane], z[lane]);
         }
-        rt__f x, y, dx, dy;
-        rt__u pixel;
-        rt__m lanes;
-        memcpy(&x, xs, sizeof x);
-        memcpy(&y, ys, sizeof y);
-        memcpy(&pixel, pixels, sizeof pixel);
-        memcpy(&lanes, inside, sizeof lanes);
-
-        rt__numbers numbers; /* rt_rng_start or rt_sobol_start */
-        numbers.key = rt__mix(pixel + rt_hash((sobol ? 0 : index) + rt_hash(seed)));
-        numbers.dimension = none;
-        numbers.sample = none + rt__reverse(index);
-        numbers.sobol = sobol;
-        rt__draw(&numbers, &dx, &dy);
-        numbers.dimension = none + 2u;
-        x = x + dx;
-        y = y + dy;
-
-        rt__rays r; /* rt__film_ray */
-        rt__d xd[2], yd[2];
-        rt__d3 d[2];
-        rt__halves(x, xd);
-        rt__halves(y, yd);
-        for (int h = 0; h < 2; h++) {
-            const rt__d to_right = film->size * (xd[h] - film->half_width);
-            const rt__d to_top = film->size * (film->half_height - yd[h]);
-            d[h] = rt__dmad(
-                rt__dmad(rt__all_of(film->forward), to_right, rt__all_of(film->right)),
-                to_top, rt__all_of(film->top));
-            const rt__d length = rt__dsqrt(rt__ddot(d[h], d[h]));
-            d[h] = rt__dscale(d[h], 1.0 / length);
-        }
-        rt__aim(&r, rt__all(film->position), rt__vjoin(d), nowhere, nowhere);
-        const rt__f3 value = rt__path(job, &r, lanes, &numbers, &rays, watch);
-        for (int lane = 0; lane < RT__LANES && lane < left; lane++)
-            values[done + lane] = rt_vec(value.x[lane], value.y[lane], value.z[lane]);
     }
-    uint64_t sum = 0;
-    for (int lane = 0; lane < RT__LANES; lane++)
-        sum += (uint32_t)rays[lane];
-    return sum;
+    return rays;
 }
 
-#undef rt__cuts
-#undef rt__d
-#undef rt__d3
-#undef rt__f
-#undef rt__f3
-#undef rt__hits
-#undef rt__l
-#undef rt__m
-#undef rt__nearest
-#undef rt__numbers
-#undef rt__rays
-#undef rt__shade
-#undef rt__u
-#undef rt__add
-#undef rt__aim
-#undef rt__all
-#undef rt__pull_lanes
-#undef rt__backwards
-#undef rt__all_of
-#undef rt__bits
-#undef rt__blocked
-#undef rt__blocked_in_tree
-#undef rt__blocks_box
-#undef rt__blocks_sphere
-#undef rt__cosine
-#undef rt__cut_axis
-#undef rt__ddot
-#undef rt__depart
-#undef rt__dmad
-#undef rt__dot
-#undef rt__draw
-#undef rt__dscale
-#undef rt__dselect
-#undef rt__dsqrt
-#undef rt__dsub
-#undef rt__enter_lanes
-#undef rt__fabs
-#undef rt__face
-#undef rt__find
-#undef rt__find_in_tree
-#undef rt__finish
-#undef rt__finish_box
-#undef rt__fma
-#undef rt__fmax
-#undef rt__fmin
-#undef rt__fnma
-#undef rt__fsqrt
-#undef rt__gather
-#undef rt__halves
-#undef rt__invert
-#undef rt__join
-#undef rt__leave
-#undef rt__light
-#undef rt__look_up
-#undef rt__mix
-#undef rt__mul
-#undef rt__near_box
-#undef rt__near_sphere
-#undef rt__offer
-#undef rt__owen
-#undef rt__parallel
-#undef rt__path
-#undef rt__ray_of_lane
-#undef rt__scale
-#undef rt__select
-#undef rt__set_lane
-#undef rt__sign
-#undef rt__slab
-#undef rt__splat
-#undef rt__step_packets
-#undef rt__sub
-#undef rt__terms
-#undef rt__to_unit
-#undef rt__vec
-#undef rt__vhalves
-#undef rt__vjoin
-#undef rt__vselect
-#undef RT__NAME
-#undef RT__PASTE
-#endif /* RT__LANES */
+/* Are all numbers neither so large that their squares are too much for float, nor so small that a
+ * ray which leaves a shape, see rt_leave, is on the other side of it already? */
+static bool rt__are_few(const rt_scene *scene, const rt_camera *camera)
+{
+    const float most = RT__MODERATE;
+    bool good = scene->sphere_count + scene->box_count <= RT__FEW &&
+                rt__within(camera->position, -most, most);
+    for (int i = 0; good && i < scene->sphere_count; i++) {
+        const rt_sphere *s = &scene->spheres[i];
+        good = rt__within(s->center, -most, most) && s->radius <= most &&
+               s->radius >= 1e-3f * (1.0f + rt_length(s->center) + s->radius);
+    }
+    for (int i = 0; good && i < scene->box_count; i++)
+        good = rt__within(scene->boxes[i].min, -most, most) &&
+               rt__within(scene->boxes[i].max, -most, most);
+    for (int i = 0; good && i < scene->light_count; i++)
+        good = rt__within(scene->lights[i].position, -most, most);
+    return good;
+}
+
+/* Is this light in the sphere, or so near to it that rt__shade may not tell? */
+static bool rt__is_by(const rt_sphere *sphere, float size, const rt_light *light)
+{
+    const rt_dvec3 l = rt_to_double(light->position);
+    const rt_dvec3 f = rt_dsub(l, rt_to_double(sphere->center));
+    const double both = (double)size + (double)RT__DOUBT * sqrt(rt_ddot(l, l));
+    return rt_ddot(f, f) - (double)sphere->radius * (double)sphere->radius <
+           4.0 * both * both;
+}
+
+static void rt__set_table(rt__table *s, const rt_scene *scene)
+{
+    memset(s, 0, sizeof *s);
+    s->spheres = scene->sphere_count;
+    s->count = s->spheres + scene->box_count;
+    for (int i = 0; i < s->count; i++) {
+        const rt_sphere *sphere = i < s->spheres ? &scene->spheres[i] : NULL;
+        const rt_box *box = sphere ? NULL : &scene->boxes[i - s->spheres];
+        const rt_material *material = sphere ? &sphere->material : &box->material;
+        const rt_vec3 place = sphere ? sphere->center : box->min;
+        s->x[i] = place.x;
+        s->y[i] = place.y;
+        s->z[i] = place.z;
+        s->red[i] = material->albedo.x;
+        s->green[i] = material->albedo.y;
+        s->blue[i] = material->albedo.z;
+        s->kind[i] = material->mirror ? 1.0f : 0.0f;
+        if (box) {
+            s->max_x[i] = box->max.x;
+            s->max_y[i] = box->max.y;
+            s->max_z[i] = box->max.z;
+            continue;
+        }
+        const rt_dvec3 o = rt_to_double(place);
+        const double oo = rt_ddot(o, o), r = (double)sphere->radius;
+        s->radius[i] = sphere->radius;
+        s->power[i] = (float)(oo - r * r);
+        s->size[i] = RT__DOUBT * (float)(oo > r * r ? sqrt(oo) : r) + 1e-10f;
+        s->largest = s->size[i] > s->largest ? s->size[i] : s->largest;
+        for (int k = 0; k < scene->light_count; k++)
+            s->by_light[i] =
+                s->by_light[i] || rt__is_by(sphere, s->size[i], &scene->lights[k]);
+        s->light_inside = s->light_inside || s->by_light[i];
+    }
+}
+
+/* rt__run, in packets. The scene must have its tree. */
+static rt_status rt__run_packets(rt__job *job)
+{
+    const rt_scene *scene = job->scene;
+    rt__table table;
+    if (rt__are_few(scene, job->camera)) {
+        rt__set_table(&table, scene);
+        job->table = &table;
+    }
+    job->step = rt__step_packets;
+    job->together = RT__LANES * RT__FLIGHT;
+    job->ticks = job->table ? 64 : 1;
+    return rt__run(job);
+}
+
+#if defined(RT__X86) && RT__LANES == 8
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#endif /* RT__LANES > 1 */
+
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+#ifdef __clang__
+#pragma STDC FP_CONTRACT DEFAULT
+#endif
+#endif /* RT_IMPLEMENTATION */
 
 /*
  * Licence: take whichever of the two you prefer.

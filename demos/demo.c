@@ -42,32 +42,33 @@ typedef struct settings {
 
 static void print_help(const demo *d)
 {
-    printf("%s - %s\n\n"
-           "  build/%s [WIDTH HEIGHT] [options]        (default 640 480)\n"
-           "  make %s ARGS=\"WIDTH HEIGHT options\"\n\n"
-           "  --samples N   samples per pixel (default %d; with --error or --time no "
-           "limit)\n"
-           "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
-           "  --time S      stop after S seconds\n"
-           "  --bounces N   how often a ray is sent on (default %d%s);\n"
-           "                all: until nothing is left (chapters 7 to 9)\n"
-           "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
-           "  --lanes N     rays at a time, 1, 4, 8 or 16 (default: %s)\n"
-           "  --sampler S   random or sobol numbers (default %s)\n"
-           "  --seed N      another seed, another noise (default 0)\n"
-           "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
-           "                or %s.png where there is no folder build)\n"
-           "  --explain X,Y only print what happens in this pixel (chapters 7 to 9)\n"
-           "  --no-window   only render and write\n"
-           "  --preview     draw the picture in the terminal, too, as it refines\n"
-           "  --quiet       print nothing but errors\n"
-           "  --help        this\n\n"
-           "In the window: h shows the keys; s saves, Esc or q ends. Ctrl-C saves what "
-           "there is and ends.\n",
-           d->name, d->title, d->name, d->name, d->samples, d->bounces,
-           d->bounces == 0 ? "; this chapter has none yet" : "",
-           d->render ? "as many as the machine can" : "1; this chapter has no more",
-           d->sobol ? "sobol" : "random", d->name, d->name);
+    printf(
+        "%s - %s\n\n"
+        "  build/%s [WIDTH HEIGHT] [options]        (default 640 480)\n"
+        "  make %s ARGS=\"WIDTH HEIGHT options\"\n\n"
+        "  --samples N   samples per pixel (default %d; with --error or --time no "
+        "limit)\n"
+        "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
+        "  --time S      stop after S seconds\n"
+        "  --bounces N   how often a ray is sent on (default %d%s);\n"
+        "                all: until nothing is left (chapters 7 to 9)\n"
+        "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
+        "  --lanes N     rays at a time: 1, or as many as this build has (default: %s)\n"
+        "  --sampler S   random or sobol numbers (default %s)\n"
+        "  --seed N      another seed, another noise (default 0)\n"
+        "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
+        "                or %s.png where there is no folder build)\n"
+        "  --explain X,Y only print what happens in this pixel (chapters 7 to 9)\n"
+        "  --no-window   only render and write\n"
+        "  --preview     draw the picture in the terminal, too, as it refines\n"
+        "  --quiet       print nothing but errors\n"
+        "  --help        this\n\n"
+        "In the window: h shows the keys; s saves, Esc or q ends. Ctrl-C saves what "
+        "there is and ends.\n",
+        d->name, d->title, d->name, d->name, d->samples, d->bounces,
+        d->bounces == 0 ? "; this chapter has none yet" : "",
+        d->render ? "as many as the machine can" : "1; this chapter has no more",
+        d->sobol ? "sobol" : "random", d->name, d->name);
 }
 
 /* A whole number from low to high, digits only; otherwise one line that says so. */
@@ -220,9 +221,11 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
         return false;
     }
     if (s->lanes > 0 && rt_lane_count((int)s->lanes) != s->lanes) {
-        fprintf(stderr, "%s: --lanes: '%lld' is not 1, 4, 8 or 16, at most %d here%s\n",
-                d->name, s->lanes, rt_lane_count(0),
-                rt_lane_count(0) == 1 ? " (was it compiled without -O?)" : "");
+        const int most = rt_lane_count(0);
+        fprintf(stderr, "%s: --lanes: '%lld': this build has 1%s", d->name, s->lanes,
+                most == 1 ? " only (was it compiled without -O?)\n" : "");
+        if (most > 1)
+            fprintf(stderr, " or %d\n", most);
         return false;
     }
     if (s->explain && (!d->explain || s->x >= s->width || s->y >= s->height)) {
@@ -705,8 +708,33 @@ static int render_and_save(run *r)
     return !good ? FAILED : interrupted ? INTERRUPTED : DONE;
 }
 
+/* What the machine lacks of that for which the demo was compiled, or NULL. It has to be
+ * asked first: nothing that comes later can be relied on. */
+static const char *lacking(void)
+{
+#if defined(__x86_64__) && defined(__GNUC__)
+    __builtin_cpu_init();
+#ifdef __AVX2__
+    if (!__builtin_cpu_supports("avx2"))
+        return "AVX2";
+#endif
+#ifdef __AVX512F__
+    if (!__builtin_cpu_supports("avx512f"))
+        return "AVX-512";
+#endif
+#endif
+    return NULL;
+}
+
 int demo_main(int argc, char **argv, const demo *d)
 {
+    if (lacking()) {
+        fprintf(stderr,
+                "%s: compiled for a machine with %s, which this one lacks: make -B "
+                "MACHINE= %s\n",
+                d->name, lacking(), d->name);
+        return FAILED;
+    }
     char out[64];
     struct stat info;
     const bool at_the_top = stat("build", &info) == 0 && S_ISDIR(info.st_mode);

@@ -178,8 +178,8 @@ static void test_lanes(void **state)
         char arguments[100];
         snprintf(arguments, sizeof arguments,
                  "demo09 60 40 --samples 4 --quiet --out 2.png --lanes %d", lanes);
-        if (rt_lane_count(lanes) != lanes) {
-            expect(2, "--lanes: ", arguments);
+        if (rt_lane_count(0) != lanes) {
+            expect(2, "--lanes: |this build has 1", arguments);
             continue;
         }
         expect(0, "", arguments);
@@ -400,7 +400,7 @@ static void test_wrong_use(void **state)
         {"--sampler Sobol", "--sampler: 'Sobol'"},
         {"--lanes", "--lanes: a number is missing"},
         {"--lanes -1", "--lanes: '-1'"},
-        {"--lanes 2", "--lanes: '2' is not 1, 4, 8 or 16"},
+        {"--lanes 2", "--lanes: '2': this build has 1"},
         {"--lanes 12", "--lanes: '12'"},
         {"--lanes 17", "--lanes: '17'"},
         {"--seed 4294967296", "--seed: '4294967296'"},

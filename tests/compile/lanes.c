@@ -24,7 +24,8 @@ int main(void)
     scene.lights = &light;
     scene.light_count = 1;
     options.bounces = 5;
-    for (int lanes = 1; lanes <= rt_lane_count(0); lanes *= lanes == 1 ? 4 : 2) {
+    const int most = rt_lane_count(0);
+    for (int lanes = 1; lanes != 0; lanes = lanes < most ? most : 0) {
         memset(&image, 0, sizeof image);
         image.width = 32;
         image.height = 24;
