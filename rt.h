@@ -2274,10 +2274,6 @@ static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *o
 /* For one ray at a time, up to so many shapes are asked sooner without the tree. */
 enum { RT__FEW_ALONE = 64 };
 
-/* No number of few shapes, camera and lights may be above this: their squares must be
- * good floats. */
-#define RT__MODERATE 1e7f
-
 RTDEF void rt_free_bvh(rt_bvh *bvh)
 {
     if (!bvh)
@@ -2944,34 +2940,29 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
  * A core of today adds 4, 8 or 16 floats with the one instruction that adds one. So here
  * are chapters 1 to 7 once more, for a packet of neighbouring pixels, each in its lane:
  *
- *     lane             0     1     2     3   ...
- *     pixel (x, y)    0,0   1,0   2,0   3,0        neighbours in a row
- *     a              -2.0   0.5   1.0   3.0        rt__f: a float in each lane
- *     b               1.0   1.0   1.0   1.0
- *     a + b          -1.0   1.5   2.0   4.0        one addition for all
- *     rt__less(a, b)  yes   yes   no    no         rt__m: a mask
- *     rt__select(rt__less(a, b), a, b)
- *                    -2.0   0.5   1.0   1.0        what takes the place of if
+ *     lane               0     1     2     3   ...
+ *     pixel             0,0   1,0   2,0   3,0        neighbours in a row
+ *     a                -2.0   0.5   1.0   3.0        rt__f: a float in each lane
+ *     b                 1.0   1.0   1.0   1.0
+ *     a + b            -1.0   1.5   2.0   4.0        one addition for all
+ *     m = a < b         yes   yes   no    no         rt__m: a mask
+ *     select(m, a, b)  -2.0   0.5   1.0   1.0        what takes the place of if
  *
- * All lanes go the same way, so both sides of an if are computed, and each lane selects
- * its own. Functions are named after those of the chapters, which say what is computed.
+ * All lanes go the same way: both sides of an if are computed, and each lane selects its
+ * own. A comment before each function names those of the chapters that it repeats.
  *
- * Every lane gets the bits that the chapters give. For most of the code that is plain: the
- * same operations in the same order. The sphere is the exception: it needs double, of
- * which only half as many fit, and most spheres are not hit. So all shapes are asked in
- * float first, with a bound for the error, and only the nearest is done once more, as
- * chapter 1 does it. If it is nearer than any other can be, it is the nearest. If not, the
- * ray goes alone through the tree of chapter 8. Shadows likewise: yes, no, or in doubt
- * alone. In the room, one ray in some thousands is in doubt.
+ * Every lane gets the bits that the chapters give. Mostly that is plain: the same
+ * operations in the same order. The sphere is the exception. It needs double, of which
+ * only half as many fit, and most spheres are not hit. So all shapes are asked in float
+ * first, with a bound for the error, and only the nearest is done as chapter 1 does it. If
+ * it is nearer than any other can be, it is the nearest. If not, this ray goes alone
+ * through the tree of chapter 8. Shadows likewise: yes, no, or in doubt alone.
  *
  * That is for few shapes. If they are many, all rays go through the tree alone.
- *
- * One program has one number of lanes, RT__LANES. What is written for it stands here
- * once; only the table that follows knows the machine.
  * ==================================================================================== */
 #if RT__LANES > 1
 
-#if defined(RT__X86) && RT__LANES == 8 /* for these functions, whatever the others get */
+#if defined(RT__X86) && RT__LANES == 8 /* what follows may use AVX2, the rest must not */
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
 #else
@@ -2984,59 +2975,49 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 typedef float rt__f __attribute__((vector_size(4 * RT__LANES)));
 typedef int32_t rt__i __attribute__((vector_size(4 * RT__LANES)));
 typedef uint32_t rt__u __attribute__((vector_size(4 * RT__LANES)));
-typedef double rt__d __attribute__((vector_size(4 * RT__LANES))); /* of half the lanes */
+typedef double rt__d __attribute__((vector_size(4 * RT__LANES))); /* half of the lanes */
 typedef int64_t rt__l __attribute__((vector_size(4 * RT__LANES)));
 
-/* ---- what is the machine's own ----------------------------------------------------
+/* ---- what is the machine's own ------------------------------------------------------
  *
- *     less, same       a < b; a = b, of ints
- *     no               not, of a mask
- *     bits             a mask as bits, lane 0 lowest
- *     select           mask ? a : b
- *     min, max         a < b ? a : b, a > b ? a : b; so b if one of them is NaN
- *     fma, fnma        a b + c, c - a b, rounded once or twice
- *     pick             of a table of count floats, for each lane the one at its place
- *     low, high        the first half of the lanes in double, the second
- *     join             two halves rounded to float
- *     reverse          the bits of each number in reverse order
+ *     less, same    a < b; a = b, of ints       no       not, of a mask
+ *     and_less      m and a < b                 bits     a mask as bits, lane 0 lowest
+ *     select        m ? a : b                   join     two halves, rounded to float
+ *     min, max      a < b ? a : b, a > b ?      low      the first half in double
+ *                   a : b; so b if one is NaN   high     the second half in double
+ *     fma, fnma     a b + c, c - a b            pick     of a table of count floats, for
+ *                                                        each lane the one at its place
  */
-#if RT__LANES == 16 /* AVX-512: a mask is one bit for each lane */
+#if RT__LANES == 16 /* AVX-512: a mask has one bit for each lane */
 typedef __mmask16 rt__m;
-#define rt__less(a, b) _mm512_cmp_ps_mask((__m512)(a), (__m512)(b), _CMP_LT_OQ)
-#define rt__and_less(m, a, b)                                                            \
-    _mm512_mask_cmp_ps_mask(m, (__m512)(a), (__m512)(b), _CMP_LT_OQ)
+#define rt__less(a, b) _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ)
+#define rt__and_less(m, a, b) _mm512_mask_cmp_ps_mask(m, a, b, _CMP_LT_OQ)
 #define rt__same(a, b) _mm512_cmpeq_epi32_mask((__m512i)(a), (__m512i)(b))
 #define rt__no(m) ((rt__m) ~(m))
 #define rt__bits(m) ((unsigned)(m))
-#define rt__select(m, a, b) ((rt__f)_mm512_mask_blend_ps(m, (__m512)(b), (__m512)(a)))
-#define rt__fmin(a, b) ((rt__f)_mm512_maskz_min_ps(0xffff, (__m512)(a), (__m512)(b)))
-#define rt__fmax(a, b) ((rt__f)_mm512_maskz_max_ps(0xffff, (__m512)(a), (__m512)(b)))
-#define rt__fsqrt(v) ((rt__f)_mm512_maskz_sqrt_ps(0xffff, (__m512)(v)))
-#define rt__dsqrt(v) ((rt__d)_mm512_maskz_sqrt_pd(0xff, (__m512d)(v)))
-#define rt__fma(a, b, c) ((rt__f)_mm512_fmadd_ps((__m512)(a), (__m512)(b), (__m512)(c)))
-#define rt__fnma(a, b, c) ((rt__f)_mm512_fnmadd_ps((__m512)(a), (__m512)(b), (__m512)(c)))
-#define rt__low(v)                                                                       \
-    ((rt__d)_mm512_maskz_cvtps_pd(0xff, _mm512_castps512_ps256((__m512)(v))))
-#define rt__high(v)                                                                      \
-    ((rt__d)_mm512_maskz_cvtps_pd(0xff,                                                  \
-                                  _mm512_maskz_extractf32x8_ps(0xff, (__m512)(v), 1)))
+#define rt__select(m, a, b) ((rt__f)_mm512_mask_blend_ps(m, b, a))
+#define rt__min(a, b) ((rt__f)_mm512_maskz_min_ps(0xffff, a, b))
+#define rt__max(a, b) ((rt__f)_mm512_maskz_max_ps(0xffff, a, b))
+#define rt__sqrt(v) ((rt__f)_mm512_maskz_sqrt_ps(0xffff, v))
+#define rt__dsqrt(v) ((rt__d)_mm512_maskz_sqrt_pd(0xff, v))
+#define rt__fma(a, b, c) ((rt__f)_mm512_fmadd_ps(a, b, c))
+#define rt__fnma(a, b, c) ((rt__f)_mm512_fnmadd_ps(a, b, c))
+#define rt__half(v, h) _mm512_maskz_extractf32x8_ps(0xff, v, h)
+#define rt__low(v) ((rt__d)_mm512_maskz_cvtps_pd(0xff, rt__half(v, 0)))
+#define rt__high(v) ((rt__d)_mm512_maskz_cvtps_pd(0xff, rt__half(v, 1)))
+#define rt__narrow(v) _mm512_maskz_cvtpd_ps(0xff, v)
 #define rt__join(a, b)                                                                   \
-    ((rt__f)_mm512_maskz_insertf32x8(                                                    \
-        0xffff, _mm512_castps256_ps512(_mm512_maskz_cvtpd_ps(0xff, (__m512d)(a))),       \
-        _mm512_maskz_cvtpd_ps(0xff, (__m512d)(b)), 1))
-#define rt__rows(v) _mm512_maskz_broadcast_i32x4(0xffff, v)
-#define rt__shuffle(a, b) _mm512_maskz_shuffle_epi8(~(__mmask64)0, a, b)
+    ((rt__f)_mm512_maskz_insertf32x8(0xffff, _mm512_castps256_ps512(rt__narrow(a)),      \
+                                     rt__narrow(b), 1))
+#define rt__pick(table, at, count)                                                       \
+    ((rt__f)((count) <= 16 ? _mm512_maskz_permutexvar_ps(0xffff, (__m512i)(at),          \
+                                                         _mm512_loadu_ps(table))         \
+                           : _mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff,       \
+                                                      (__m512i)(at), table, 4)))
 typedef __m512i rt__bytes;
-RT__INLINE rt__f rt__pick(const float *table, rt__i at, int count)
-{
-    if (__builtin_expect(count <= 16, 1))
-        return (rt__f)_mm512_maskz_permutexvar_ps(0xffff, (__m512i)at,
-                                                  _mm512_loadu_ps(table));
-    return (rt__f)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff, (__m512i)at,
-                                           table, 4);
-}
-
-#else /* else -1, all bits set, or 0 in each lane */
+#define rt__repeat(v) _mm512_maskz_broadcast_i32x4(0xffff, v)
+#define rt__shuffle(a, b) _mm512_maskz_shuffle_epi8(~(__mmask64)0, a, b)
+#else /* elsewhere -1 in each lane that is true, and 0 */
 typedef rt__i rt__m;
 #define rt__less(a, b) ((a) < (b))
 #define rt__and_less(m, a, b) ((m) & ((a) < (b)))
@@ -3044,36 +3025,40 @@ typedef rt__i rt__m;
 #define rt__no(m) (~(m))
 #endif
 
-#if RT__LANES == 8 /* AVX2, FMA */
+#if RT__LANES == 8 /* AVX2 and FMA */
 #define rt__bits(m) ((unsigned)_mm256_movemask_ps((__m256)(m)))
-#define rt__select(m, a, b)                                                              \
-    ((rt__f)_mm256_blendv_ps((__m256)(b), (__m256)(a), (__m256)(m)))
-#define rt__fmin(a, b) ((rt__f)_mm256_min_ps((__m256)(a), (__m256)(b)))
-#define rt__fmax(a, b) ((rt__f)_mm256_max_ps((__m256)(a), (__m256)(b)))
-#define rt__fsqrt(v) ((rt__f)_mm256_sqrt_ps((__m256)(v)))
-#define rt__dsqrt(v) ((rt__d)_mm256_sqrt_pd((__m256d)(v)))
-#define rt__fma(a, b, c) ((rt__f)_mm256_fmadd_ps((__m256)(a), (__m256)(b), (__m256)(c)))
-#define rt__fnma(a, b, c) ((rt__f)_mm256_fnmadd_ps((__m256)(a), (__m256)(b), (__m256)(c)))
-#define rt__low(v) ((rt__d)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)(v))))
-#define rt__high(v) ((rt__d)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)(v), 1)))
-#define rt__join(a, b)                                                                   \
-    ((rt__f)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)(a))),  \
-                                 _mm256_cvtpd_ps((__m256d)(b)), 1))
-#define rt__rows(v) _mm256_broadcastsi128_si256(v)
-#define rt__shuffle(a, b) _mm256_shuffle_epi8(a, b)
+#define rt__select(m, a, b) ((rt__f)_mm256_blendv_ps(b, a, (__m256)(m)))
+#define rt__min(a, b) ((rt__f)_mm256_min_ps(a, b))
+#define rt__max(a, b) ((rt__f)_mm256_max_ps(a, b))
+#define rt__sqrt(v) ((rt__f)_mm256_sqrt_ps(v))
+#define rt__dsqrt(v) ((rt__d)_mm256_sqrt_pd(v))
+#define rt__fma(a, b, c) ((rt__f)_mm256_fmadd_ps(a, b, c))
+#define rt__fnma(a, b, c) ((rt__f)_mm256_fnmadd_ps(a, b, c))
+#define rt__low(v) ((rt__d)_mm256_cvtps_pd(_mm256_castps256_ps128(v)))
+#define rt__high(v) ((rt__d)_mm256_cvtps_pd(_mm256_extractf128_ps(v, 1)))
+#define rt__join(a, b) ((rt__f)_mm256_set_m128(_mm256_cvtpd_ps(b), _mm256_cvtpd_ps(a)))
+#define rt__pick(table, at, count)                                                       \
+    ((rt__f)((count) <= 8                                                                \
+                 ? _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)(at))       \
+                 : _mm256_i32gather_ps(table, (__m256i)(at), 4)))
 typedef __m256i rt__bytes;
-RT__INLINE rt__f rt__pick(const float *table, rt__i at, int count)
-{
-    if (__builtin_expect(count <= 8, 1))
-        return (rt__f)_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)at);
-    return (rt__f)_mm256_i32gather_ps(table, (__m256i)at, 4);
-}
+#define rt__repeat(v) _mm256_broadcastsi128_si256(v)
+#define rt__shuffle(a, b) _mm256_shuffle_epi8(a, b)
 #endif
 
 #if RT__LANES == 4
-#define rt__select(m, a, b) ((rt__f)(((m) & (rt__i)(a)) | (~(m) & (rt__i)(b))))
-#define rt__fmin(a, b) rt__select((a) < (b), a, b)
-#define rt__fmax(a, b) rt__select((a) > (b), a, b)
+RT__INLINE rt__f rt__select(rt__m m, rt__f a, rt__f b)
+{
+    return (rt__f)((m & (rt__i)a) | (~m & (rt__i)b));
+}
+RT__INLINE rt__f rt__min(rt__f a, rt__f b)
+{
+    return rt__select(a < b, a, b);
+}
+RT__INLINE rt__f rt__max(rt__f a, rt__f b)
+{
+    return rt__select(a > b, a, b);
+}
 RT__INLINE rt__f rt__pick(const float *table, rt__i at, int count)
 {
     const rt__f picked = {table[at[0]], table[at[1]], table[at[2]], table[at[3]]};
@@ -3082,31 +3067,28 @@ RT__INLINE rt__f rt__pick(const float *table, rt__i at, int count)
 }
 #ifdef __wasm_simd128__
 #define rt__bits(m) ((unsigned)wasm_i32x4_bitmask((v128_t)(m)))
-#define rt__fsqrt(v) ((rt__f)wasm_f32x4_sqrt((v128_t)(v)))
+#define rt__sqrt(v) ((rt__f)wasm_f32x4_sqrt((v128_t)(v)))
 #define rt__dsqrt(v) ((rt__d)wasm_f64x2_sqrt((v128_t)(v)))
-#define rt__fma(a, b, c) ((a) * (b) + (c))
+#define rt__fma(a, b, c) ((a) * (b) + (c)) /* rounded twice, which the bounds allow */
 #define rt__fnma(a, b, c) ((c) - (a) * (b))
 #define rt__low(v) ((rt__d)wasm_f64x2_promote_low_f32x4((v128_t)(v)))
 #define rt__high(v) rt__low(wasm_i32x4_shuffle((v128_t)(v), (v128_t)(v), 2, 3, 2, 3))
+#define rt__narrow(v) wasm_f32x4_demote_f64x2_zero((v128_t)(v))
 #define rt__join(a, b)                                                                   \
-    ((rt__f)wasm_i32x4_shuffle(wasm_f32x4_demote_f64x2_zero((v128_t)(a)),                \
-                               wasm_f32x4_demote_f64x2_zero((v128_t)(b)), 0, 1, 4, 5))
+    ((rt__f)wasm_i32x4_shuffle(rt__narrow(a), rt__narrow(b), 0, 1, 4, 5))
 #else /* NEON */
 RT__INLINE unsigned rt__bits(rt__m m)
 {
     const rt__i weights = {1, 2, 4, 8};
     return (unsigned)vaddvq_s32((int32x4_t)(m & weights));
 }
-#define rt__fsqrt(v) ((rt__f)vsqrtq_f32((float32x4_t)(v)))
+#define rt__sqrt(v) ((rt__f)vsqrtq_f32((float32x4_t)(v)))
 #define rt__dsqrt(v) ((rt__d)vsqrtq_f64((float64x2_t)(v)))
-#define rt__fma(a, b, c)                                                                 \
-    ((rt__f)vfmaq_f32((float32x4_t)(c), (float32x4_t)(a), (float32x4_t)(b)))
-#define rt__fnma(a, b, c)                                                                \
-    ((rt__f)vfmsq_f32((float32x4_t)(c), (float32x4_t)(a), (float32x4_t)(b)))
+#define rt__fma(a, b, c) ((a) * (b) + (c))
+#define rt__fnma(a, b, c) ((c) - (a) * (b))
 #define rt__low(v) ((rt__d)vcvt_f64_f32(vget_low_f32((float32x4_t)(v))))
 #define rt__high(v) ((rt__d)vcvt_high_f64_f32((float32x4_t)(v)))
-#define rt__join(a, b)                                                                   \
-    ((rt__f)vcvt_high_f32_f64(vcvt_f32_f64((float64x2_t)(a)), (float64x2_t)(b)))
+#define rt__join(a, b) ((rt__f)vcvt_high_f32_f64(vcvt_f32_f64((float64x2_t)(a)), b))
 #endif
 #endif
 
@@ -3114,7 +3096,7 @@ RT__INLINE unsigned rt__bits(rt__m m)
 #define rt__count(m) ((uint64_t)__builtin_popcount(rt__bits(m)))
 #define rt__iselect(m, a, b) ((rt__i)rt__select(m, (rt__f)(a), (rt__f)(b)))
 
-/* ---- chapter 0 ------------------------------------------------------------------- */
+/* ---- chapter 0 ---------------------------------------------------------------------- */
 
 typedef struct rt__f3 {
     rt__f x, y, z;
@@ -3124,13 +3106,13 @@ typedef struct rt__d3 {
     rt__d x, y, z;
 } rt__d3;
 
-RT__INLINE rt__f rt__splat(float v)
+RT__INLINE rt__f rt__all(float v)
 {
     const rt__f zero = {0.0f};
     return v - zero;
 }
 
-RT__INLINE rt__f rt__fabs(rt__f v)
+RT__INLINE rt__f rt__abs(rt__f v)
 {
     return (rt__f)((rt__i)v & 0x7fffffff);
 }
@@ -3144,9 +3126,9 @@ RT__INLINE rt__f3 rt__vec(rt__f x, rt__f y, rt__f z)
     return v;
 }
 
-RT__INLINE rt__f3 rt__all(rt_vec3 v)
+RT__INLINE rt__f3 rt__vall(rt_vec3 v)
 {
-    return rt__vec(rt__splat(v.x), rt__splat(v.y), rt__splat(v.z));
+    return rt__vec(rt__all(v.x), rt__all(v.y), rt__all(v.z));
 }
 
 RT__INLINE rt__f3 rt__add(rt__f3 a, rt__f3 b)
@@ -3174,10 +3156,10 @@ RT__INLINE rt__f rt__dot(rt__f3 a, rt__f3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-RT__INLINE rt__f3 rt__vselect(rt__m mask, rt__f3 a, rt__f3 b)
+RT__INLINE rt__f3 rt__vselect(rt__m m, rt__f3 a, rt__f3 b)
 {
-    return rt__vec(rt__select(mask, a.x, b.x), rt__select(mask, a.y, b.y),
-                   rt__select(mask, a.z, b.z));
+    return rt__vec(rt__select(m, a.x, b.x), rt__select(m, a.y, b.y),
+                   rt__select(m, a.z, b.z));
 }
 
 RT__INLINE rt__d rt__ddot(rt__d3 a, rt__d3 b)
@@ -3185,11 +3167,11 @@ RT__INLINE rt__d rt__ddot(rt__d3 a, rt__d3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-RT__INLINE rt__d3 rt__dsub(rt__d3 a, rt__d3 b)
+RT__INLINE rt__d3 rt__dmad(rt__d3 a, rt__d k, rt__d3 b)
 {
-    a.x = a.x - b.x;
-    a.y = a.y - b.y;
-    a.z = a.z - b.z;
+    a.x = a.x + k * b.x;
+    a.y = a.y + k * b.y;
+    a.z = a.z + k * b.z;
     return a;
 }
 
@@ -3201,28 +3183,18 @@ RT__INLINE rt__d3 rt__dscale(rt__d3 v, rt__d k)
     return v;
 }
 
-RT__INLINE rt__d3 rt__dmad(rt__d3 a, rt__d k, rt__d3 b)
+RT__INLINE rt__d rt__widen(rt__f v, int half)
 {
-    a.x = a.x + k * b.x;
-    a.y = a.y + k * b.y;
-    a.z = a.z + k * b.z;
-    return a;
+    return half == 0 ? rt__low(v) : rt__high(v);
 }
 
-RT__INLINE void rt__halves(rt__f v, rt__d *two)
+RT__INLINE rt__d3 rt__vwiden(rt__f3 v, int half)
 {
-    two[0] = rt__low(v);
-    two[1] = rt__high(v);
-}
-
-RT__INLINE void rt__vhalves(rt__f3 v, rt__d3 *two)
-{
-    two[0].x = rt__low(v.x);
-    two[0].y = rt__low(v.y);
-    two[0].z = rt__low(v.z);
-    two[1].x = rt__high(v.x);
-    two[1].y = rt__high(v.y);
-    two[1].z = rt__high(v.z);
+    rt__d3 d;
+    d.x = rt__widen(v.x, half);
+    d.y = rt__widen(v.y, half);
+    d.z = rt__widen(v.z, half);
+    return d;
 }
 
 RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
@@ -3231,89 +3203,99 @@ RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
                    rt__join(two[0].z, two[1].z));
 }
 
-/* ---- the shapes, and where rays start --------------------------------------------- */
+/* ---- the shapes, and where rays start ----------------------------------------------- */
 
-/* So many shapes are asked one by one, without the tree: about there the two take the same
- * time. */
+/* So many shapes are asked one by one, without the tree: about there it takes as long. */
 enum { RT__FEW = 10 * RT__LANES };
 
-/* Few shapes, by field; spheres first, then boxes. */
+typedef struct rt__column {
+    float x[RT__FEW], y[RT__FEW], z[RT__FEW];
+} rt__column;
+
+/* The shapes of a scene, column by column; spheres first, then boxes. */
 struct rt__table {
+    bool few; /* else there is nothing here, and rays ask the tree */
     int spheres, count;
-    float x[RT__FEW], y[RT__FEW], z[RT__FEW];             /* center; of a box min */
-    float max_x[RT__FEW], max_y[RT__FEW], max_z[RT__FEW]; /* of a box */
-    float radius[RT__FEW];
-    float power[RT__FEW]; /* |O|^2 - R^2, the power of the point (0,0,0) */
-    float size[RT__FEW];  /* max(|O|, R), scaled by RT__DOUBT */
-    float red[RT__FEW], green[RT__FEW], blue[RT__FEW], kind[RT__FEW]; /* 1: mirror */
-    float largest;                                                    /* of the sizes */
-    bool by_light[RT__FEW]; /* a light is in this sphere, or near its surface */
-    bool light_inside;      /* of any of them */
+    rt__column place, max, albedo; /* place is the center or min */
+    float kind[RT__FEW];           /* see rt__hits */
+    float radius[RT__FEW];         /* 0: a box */
+    float power[RT__FEW];          /* |O|^2 - R^2, the power of the point (0,0,0) */
+    float size[RT__FEW];           /* max(|O|, R), scaled by RT__DOUBT */
+    float largest;                 /* of the sizes */
+    bool near_light[RT__FEW];      /* a light is in this sphere, or near to it */
+    bool light_near;               /* to any of them */
 };
 
-/* Where the rays of a packet start. They share, for each sphere, c = |C - O|^2 - R^2 of
- * chapter 1: the shadow rays and the next bounce start at the same point.
+RT__INLINE rt__f3 rt__vpick(const rt__column *c, rt__i at, int count)
+{
+    return rt__vec(rt__pick(c->x, at, count), rt__pick(c->y, at, count),
+                   rt__pick(c->z, at, count));
+}
+
+RT__INLINE rt__f3 rt__row(const rt__column *c, int i)
+{
+    return rt__vall(rt_vec(c->x[i], c->y[i], c->z[i]));
+}
+
+/* Where the rays of a packet start: the rays to the lights and the next bounce start at
+ * the same point, so they share, for each sphere, c of chapter 1,
  *
- *     c = <C,C> - <O,2C> + (|O|^2 - R^2)
+ *     c = |C - O|^2 - R^2 = <C,C> - <O,2C> + (|O|^2 - R^2).
  *
- * is a small difference of large numbers, and here in float, but for the last term, which
- * was taken in double. With s = |C| + max(|O|, R) no number on the way is larger than s^2,
- * and each of 9 roundings is 2^-24 of it at most. So with RT__DOUBT^2 = 2^-19
+ * That is a small difference of large numbers, in float but for the last term, which was
+ * taken in double. With s = |C| + max(|O|, R) none of them is larger than s^2, and each of
+ * 9 roundings is 2^-24 of it at most. So, with some room for what comes below,
  *
- *     |error of c|  <  doubt = (RT__DOUBT s)^2;     low = c - doubt,  high = c + doubt. */
-#define RT__DOUBT 1.953125e-3f /* 2^-9 */
+ *     |error of c|  <  doubt = 2^-18 s^2,        low = c - doubt,   high = c + doubt. */
+#define RT__DOUBT 1.953125e-3f /* 2^-9: doubt is the square of RT__DOUBT s */
 
 typedef struct rt__place {
-    rt__f3 origin;
-    rt__f size; /* |C|, scaled by RT__DOUBT */
-    rt__i left; /* the number n of the sphere that the ray leaves on its outside, or ~n on
-                   its inside; or RT__NOWHERE. It is at t = 0, which is no hit */
-    bool near[RT__FEW]; /* a ray starts in this sphere, or so near to its surface that it
-                           may; or a light is there */
-    bool near_any;
+    rt__f3 origin; /* C */
+    rt__f size;    /* |C|, scaled by RT__DOUBT */
+    rt__i left;    /* the number n of the sphere that the ray leaves on its outside, or ~n
+                      on its inside; or RT__NOWHERE. It is met at t = 0, which is no hit */
     rt__f low[RT__FEW], high[RT__FEW];
+    bool near[RT__FEW]; /* a ray may start in this sphere, or a light is in or near it */
+    bool any_near;
 } rt__place;
 
 #define RT__NOWHERE INT_MAX
 
-RT__INLINE void rt__set_out(const rt__table *s, rt__place *p, rt__f3 origin, rt__i left)
+RT__INLINE void rt__start_at(const rt__table *s, rt__place *p, rt__f3 origin, rt__i left)
 {
     const rt__f oo = rt__dot(origin, origin);
     const rt__f3 two = rt__add(origin, origin);
-    const int spheres = s ? s->spheres : 0;
     rt__i here = left & 0;
-    rt__m close = rt__less(oo, oo);
+    rt__m close = {0};
     p->origin = origin;
-    p->size = rt__fsqrt(oo) * RT__DOUBT;
+    p->size = rt__sqrt(oo) * RT__DOUBT;
     p->left = left;
-    for (int i = 0; i < spheres; i++, here += 1) {
+    for (int i = 0; i < s->spheres; i++, here += 1) {
+        const rt__f3 o = rt__row(&s->place, i);
         const rt__f size = p->size + s->size[i], doubt = size * size;
-        const rt__f c =
-            rt__fnma(rt__splat(s->x[i]), two.x,
-                     rt__fnma(rt__splat(s->y[i]), two.y,
-                              rt__fnma(rt__splat(s->z[i]), two.z, oo + s->power[i])));
-        const rt__f low = rt__select(rt__same(left, here), rt__splat(1e30f), c - doubt);
+        const rt__f c = rt__fnma(
+            o.x, two.x, rt__fnma(o.y, two.y, rt__fnma(o.z, two.z, oo + s->power[i])));
+        const rt__f low = rt__select(rt__same(left, here), rt__all(1e30f), c - doubt);
         close |= rt__less(low, doubt);
         p->low[i] = low;
         p->high[i] = c + doubt;
     }
-    p->near_any = rt__any(close) || (s && s->light_inside);
-    for (int i = 0; p->near_any && i < spheres; i++)
-        p->near[i] = s->by_light[i] || rt__any(rt__less(p->low[i] * 3.0f, p->high[i]));
+    p->any_near = rt__any(close) || s->light_near;
+    for (int i = 0; p->any_near && i < s->spheres; i++)
+        p->near[i] = s->near_light[i] || rt__any(rt__less(p->low[i] * 3.0f, p->high[i]));
 }
 
-/* ---- chapters 1 to 3: the nearest hit --------------------------------------------- */
+/* ---- chapters 1 to 3: the nearest hit ----------------------------------------------- */
 
 /* What rt_hit says, for a packet, with what chapter 7 wants to know of the material. */
 typedef struct rt__hits {
     rt__f kind; /* -1: nothing was hit; 0: a diffuse surface; 1: a mirror */
-    rt__i left; /* see rt__place */
+    rt__i left; /* of the next place */
     rt__f3 point, normal, albedo;
 } rt__hits;
 
-/* The nearest shape so far, by key = -a t: the larger, the nearer. That of the shape
- * number at is best, and maybe too large, but not too small; that of all others is others
- * or smaller. */
+/* The nearest shape so far, by key = -a t: the larger, the nearer. That of shape number at
+ * is best or less; that of every other is others or less. */
 typedef struct rt__nearest {
     rt__f best, others;
     rt__i at;
@@ -3325,44 +3307,39 @@ typedef struct rt__nearest {
 RT__INLINE void rt__offer(rt__nearest *n, rt__f key, rt__i at)
 {
     const rt__m nearer = rt__less(n->best, key);
-    n->others = rt__fmax(rt__fmin(n->best, key), n->others);
-    n->best = rt__fmax(key, n->best);
+    n->others = rt__max(rt__min(n->best, key), n->others);
+    n->best = rt__max(key, n->best);
     n->at = rt__iselect(nearer, at, n->at);
 }
 
-/* b = <C - O, u> = <C,u> - <O,u>, of which <C,u> is the same for all spheres. Wrong by
- * 7 roundings of s |u| at most, less than 2^-21 s |u|. */
-RT__INLINE rt__f rt__b(const rt__table *s, int i, rt__f3 u, rt__f ou)
+/* b = <C - O, u> = <C,u> - <O,u>, of which the first is the same for all spheres. Wrong by
+ * 7 roundings of s |u|, less than 2^-21 s |u|. */
+RT__INLINE rt__f rt__b(const rt__table *s, int i, rt__f3 u, rt__f cu)
 {
-    return rt__fnma(
-        rt__splat(s->x[i]), u.x,
-        rt__fnma(rt__splat(s->y[i]), u.y, rt__fnma(rt__splat(s->z[i]), u.z, ou)));
+    const rt__f3 o = rt__row(&s->place, i);
+    return rt__fnma(o.x, u.x, rt__fnma(o.y, u.y, rt__fnma(o.z, u.z, cu)));
 }
 
-/* The key of a sphere, -a t = b + sqrt(b^2 - a c), with c so small that it is not too
- * small: (b^2 - a c) / a is wrong by 29 roundings of s^2, less than doubt. Where the ray
- * starts outside, a sphere behind it has b >= 0, and then min(b, 0) makes the
- * discriminant negative, and its root NaN. */
+/* rt__meet_sphere: -a t = b + sqrt(b^2 - a c). With low in place of c that is never too
+ * small, as (b^2 - a c) / a is wrong by 29 roundings of s^2, less than doubt. If the rays
+ * start outside and go away, b > 0, then min(b, 0) leaves a negative discriminant, of
+ * which the root is NaN. */
 RT__INLINE rt__f rt__sphere_key(const rt__table *s, const rt__place *p, int i, rt__i here,
                                 rt__f b, rt__f a)
 {
-    const rt__f zero = rt__splat(0.0f), low = p->low[i];
-    const rt__f discriminant = rt__fnma(a, low, b * rt__fmin(b, zero));
-    const rt__f key = b + rt__fsqrt(discriminant);
-    if (__builtin_expect(!p->near_any, 1) || !p->near[i])
+    const rt__f zero = rt__all(0.0f), low = p->low[i];
+    const rt__f key = b + rt__sqrt(rt__fnma(a, low, b * rt__min(b, zero)));
+    if (__builtin_expect(!p->any_near, 1) || !p->near[i])
         return key;
-    /* Inside, it is the larger root; too close to the surface to tell, all is possible. */
+    /* Inside it is the larger root; too near to the surface to tell, t may be 0. */
     const rt__f size = p->size + s->size[i], doubt = size * size;
-    const rt__m left_inside = rt__same(p->left, ~here);
-    const rt__m inside = rt__less(low, -3.0f * doubt) | left_inside;
-    const rt__m unclear = rt__less(low, doubt) & rt__no(inside);
-    const rt__f least = rt__fmax(rt__fnma(a, low + 2.0f * doubt, b * b), zero);
-    return rt__select(inside, b - rt__fsqrt(least), rt__select(unclear, zero, key));
+    const rt__m inside = rt__less(low, -3.0f * doubt) | rt__same(p->left, ~here);
+    const rt__f root = rt__sqrt(rt__max(rt__fnma(a, low + 2.0f * doubt, b * b), zero));
+    return rt__select(inside, b - root, rt__select(rt__less(low, doubt), zero, key));
 }
 
-/* What rays do with boxes: where they enter and leave one, within 2^-22 of t by three
- * roundings. Of rays parallel to an axis nothing is sure: they may run in the very plane
- * of a face. */
+/* What rays do with boxes. With 1/u in place of u they enter and leave within 3 roundings
+ * of t. Of rays parallel to a face nothing is sure: they may run in its very plane. */
 typedef struct rt__slab_rays {
     rt__f3 origin, inverse;
     rt__m parallel;
@@ -3373,35 +3350,33 @@ RT__INLINE rt__slab_rays rt__for_boxes(rt__f3 origin, rt__f3 u)
     rt__slab_rays r;
     r.origin = origin;
     r.inverse = rt__vec(1.0f / u.x, 1.0f / u.y, 1.0f / u.z);
-    r.parallel = rt__less(rt__fabs(u.x * u.y * u.z), rt__splat(1e-29f));
+    r.parallel = rt__less(rt__abs(u.x * u.y * u.z), rt__all(1e-29f));
     return r;
 }
 
 RT__INLINE void rt__slab(const rt__table *s, int i, const rt__slab_rays *r, rt__f *t_in,
                          rt__f *t_out, rt__f *doubt)
 {
-    const rt__f3 min = rt__all(rt_vec(s->x[i], s->y[i], s->z[i]));
-    const rt__f3 max = rt__all(rt_vec(s->max_x[i], s->max_y[i], s->max_z[i]));
-    const rt__f3 low = rt__mul(rt__sub(min, r->origin), r->inverse);
-    const rt__f3 high = rt__mul(rt__sub(max, r->origin), r->inverse);
-    *t_in = rt__fmax(rt__fmax(rt__fmin(low.x, high.x), rt__fmin(low.y, high.y)),
-                     rt__fmin(low.z, high.z));
-    *t_out = rt__fmin(rt__fmin(rt__fmax(low.x, high.x), rt__fmax(low.y, high.y)),
-                      rt__fmax(low.z, high.z));
-    *doubt = (rt__fabs(*t_in) + rt__fabs(*t_out)) * (4.0f * FLT_EPSILON);
+    const rt__f3 low = rt__mul(rt__sub(rt__row(&s->place, i), r->origin), r->inverse);
+    const rt__f3 high = rt__mul(rt__sub(rt__row(&s->max, i), r->origin), r->inverse);
+    *t_in = rt__max(rt__max(rt__min(low.x, high.x), rt__min(low.y, high.y)),
+                    rt__min(low.z, high.z));
+    *t_out = rt__min(rt__min(rt__max(low.x, high.x), rt__max(low.y, high.y)),
+                     rt__max(low.z, high.z));
+    *doubt = (rt__abs(*t_in) + rt__abs(*t_out)) * (4.0f * FLT_EPSILON);
 }
 
-/* All shapes, one after the other. */
+/* rt_intersect, the loops: all shapes, one after the other. */
 RT__INLINE rt__nearest rt__ask_all(const rt__table *s, const rt__place *p, rt__f3 u,
                                    rt__f a)
 {
-    const rt__f ou = rt__dot(p->origin, u), zero = rt__splat(0.0f);
+    const rt__f cu = rt__dot(p->origin, u), zero = rt__all(0.0f);
     rt__nearest n;
-    n.best = n.others = rt__splat(RT__NEVER);
+    n.best = n.others = rt__all(RT__NEVER);
     n.at = (rt__i)zero;
     rt__i here = (rt__i)zero;
     for (int i = 0; i < s->spheres; i++, here += 1)
-        rt__offer(&n, rt__sphere_key(s, p, i, here, rt__b(s, i, u, ou), a), here);
+        rt__offer(&n, rt__sphere_key(s, p, i, here, rt__b(s, i, u, cu), a), here);
     if (s->spheres == s->count)
         return n;
     const rt__slab_rays r = rt__for_boxes(p->origin, u);
@@ -3410,13 +3385,41 @@ RT__INLINE rt__nearest rt__ask_all(const rt__table *s, const rt__place *p, rt__f
         rt__slab(s, i, &r, &t_in, &t_out, &doubt);
         const rt__m misses = rt__less(t_out + doubt, t_in) | rt__less(t_out, zero);
         const rt__f t = rt__select(rt__less(zero, t_in), t_in, t_out);
-        const rt__f key = rt__select(misses, rt__splat(RT__NEVER), (doubt - t) * a);
+        const rt__f key = rt__select(misses, rt__all(RT__NEVER), (doubt - t) * a);
         rt__offer(&n, rt__select(r.parallel, zero, key), here);
     }
     return n;
 }
 
-/* rt__slabs and rt__cut. */
+/* rt__meet_sphere and rt__hit_sphere_at in double, each lane with its own sphere; but not
+ * what they do in rare cases, see rt__find. Returns t. */
+RT__INLINE rt__f rt__finish_spheres(const rt__place *p, rt__f3 u, rt__f3 center,
+                                    rt__f radius, rt__hits *hits)
+{
+    rt__d3 points[2], normals[2];
+    rt__d t[2];
+    for (int h = 0; h < 2; h++) {
+        const rt__d3 v = rt__vwiden(u, h), o = rt__vwiden(center, h);
+        const rt__d r = rt__widen(radius, h), minus_one = r - r - 1.0;
+        const rt__d3 f = rt__dmad(rt__vwiden(p->origin, h), minus_one, o);
+        const rt__d a = rt__ddot(v, v), b = rt__ddot(f, v), c = rt__ddot(f, f) - r * r;
+        const rt__d root = rt__dsqrt(b * b - a * c);
+        rt__d key = b + root;
+        if (__builtin_expect(p->any_near, 0)) { /* inside, the other root */
+            const rt__l in = key > 0.0;
+            key = (rt__d)((in & (rt__l)(b - root)) | (~in & (rt__l)key));
+        }
+        t[h] = key / -a;
+        const rt__d3 n = rt__dscale(rt__dmad(f, t[h], v), 1.0 / r);
+        normals[h] = rt__dscale(n, 1.5 - 0.5 * rt__ddot(n, n));
+        points[h] = rt__dmad(o, r, normals[h]);
+    }
+    hits->point = rt__vjoin(points);
+    hits->normal = rt__vjoin(normals);
+    return rt__join(t[0], t[1]);
+}
+
+/* rt__slabs, rt__quotient and rt__cut. */
 typedef struct rt__cuts {
     rt__f t_in, t_out;
     rt__i axis_in, axis_out;
@@ -3426,11 +3429,11 @@ typedef struct rt__cuts {
 RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, rt__f low, rt__f high, rt__f o,
                              rt__f u)
 {
-    const rt__f zero = rt__splat(0.0f), all = rt__splat(FLT_MAX);
+    const rt__f zero = rt__all(0.0f), all = rt__all(FLT_MAX);
     const rt__i here = (rt__i)zero + axis;
-    const rt__m parallel = rt__no(rt__less(zero, rt__fabs(u))), up = rt__less(zero, u);
-    const rt__f t_low = rt__fmax(rt__fmin((low - o) / u, all), -all);
-    const rt__f t_high = rt__fmax(rt__fmin((high - o) / u, all), -all);
+    const rt__m parallel = rt__no(rt__less(zero, rt__abs(u))), up = rt__less(zero, u);
+    const rt__f t_low = rt__max(rt__min((low - o) / u, all), -all);
+    const rt__f t_high = rt__max(rt__min((high - o) / u, all), -all);
     const rt__f t_in = rt__select(parallel, -all, rt__select(up, t_low, t_high));
     const rt__f t_out = rt__select(parallel, all, rt__select(up, t_high, t_low));
     const rt__m later = rt__less(cuts->t_in, t_in), sooner = rt__less(t_out, cuts->t_out);
@@ -3442,13 +3445,13 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, rt__f low, rt__f high, rt
                   rt__less(t_out, t_in) | rt__less(cuts->t_out, cuts->t_in);
 }
 
-/* One coordinate of normal and point: on the plane, if it is through one of this axis that
- * the ray comes or goes, and pulled back by rt__pull if not. */
+/* One coordinate of normal and point: on the plane, if the ray comes or goes through one
+ * of this axis; else as rt__pull has it. */
 RT__INLINE void rt__face(rt__m here, rt__m inside, rt__f o, rt__f u, rt__f low,
                          rt__f high, rt__f *normal, rt__f *point)
 {
-    const rt__f p = *point, zero = rt__splat(0.0f), one = rt__splat(1.0f);
-    const rt__f step = FLT_EPSILON * (4.0f * rt__fabs(p - o) + rt__fabs(p));
+    const rt__f p = *point, zero = rt__all(0.0f), one = rt__all(1.0f);
+    const rt__f step = FLT_EPSILON * (4.0f * rt__abs(p - o) + rt__abs(p));
     const rt__m forth = rt__less(o, p), up = rt__less(zero, u);
     const rt__f back = rt__select(forth, p - step, p + step);
     const rt__f pulled = rt__select(rt__less(o, back) ^ forth, o, back);
@@ -3456,26 +3459,23 @@ RT__INLINE void rt__face(rt__m here, rt__m inside, rt__f o, rt__f u, rt__f low,
     *point = rt__select(here, rt__select(up ^ inside, low, high), pulled);
 }
 
-/* rt_hit_box, for lanes whose nearest shape is a box, if the hit is nearer than limit;
- * returns those for which that is so. */
+/* rt_hit_box, for lanes whose nearest shape is a box, if its key is above limit; returns
+ * those for which that is so. */
 static __attribute__((noinline)) rt__m
-rt__finish_boxes(const rt__table *s, const rt__place *p, const rt__f3 *direction,
+rt__finish_boxes(const rt__table *s, const rt__f3 *origin, const rt__f3 *direction,
                  rt__m lanes, const rt__i *at, const rt__f *limit, rt__hits *hits)
 {
-    const rt__f3 o = p->origin, u = *direction;
-    const rt__f3 low =
-        rt__vec(rt__pick(s->x, *at, s->count), rt__pick(s->y, *at, s->count),
-                rt__pick(s->z, *at, s->count));
-    const rt__f3 high =
-        rt__vec(rt__pick(s->max_x, *at, s->count), rt__pick(s->max_y, *at, s->count),
-                rt__pick(s->max_z, *at, s->count));
-    const rt__f zero = rt__splat(0.0f);
+    const rt__f3 o = *origin, u = *direction;
+    const rt__f3 low = rt__vpick(&s->place, *at, s->count);
+    const rt__f3 high = rt__vpick(&s->max, *at, s->count);
+    const rt__f zero = rt__all(0.0f);
     const rt__i x = (rt__i)zero, y = x + 1, z = x + 2;
+    const rt__m none = {0};
     rt__cuts cuts;
-    cuts.t_out = rt__splat(FLT_MAX);
+    cuts.t_out = rt__all(FLT_MAX);
     cuts.t_in = -cuts.t_out;
     cuts.axis_in = cuts.axis_out = x;
-    cuts.miss = rt__less(zero, zero);
+    cuts.miss = none;
     rt__cut_axis(&cuts, 0, low.x, high.x, o.x, u.x);
     rt__cut_axis(&cuts, 1, low.y, high.y, o.y, u.y);
     rt__cut_axis(&cuts, 2, low.z, high.z, o.z, u.z);
@@ -3483,7 +3483,7 @@ rt__finish_boxes(const rt__table *s, const rt__place *p, const rt__f3 *direction
     const rt__f t = rt__select(inside, cuts.t_out, cuts.t_in);
     const rt__i axis = rt__iselect(inside, cuts.axis_out, cuts.axis_in);
     const rt__m good = lanes & rt__no(cuts.miss) & rt__less(zero, t) &
-                       rt__less(rt__dot(u, u) * t, *limit);
+                       rt__less(*limit, rt__dot(u, u) * -t);
     rt__f3 normal, point = rt__add(o, rt__scale(u, t));
     rt__face(rt__same(axis, x), inside, o.x, u.x, low.x, high.x, &normal.x, &point.x);
     rt__face(rt__same(axis, y), inside, o.y, u.y, low.y, high.y, &normal.y, &point.y);
@@ -3494,42 +3494,7 @@ rt__finish_boxes(const rt__table *s, const rt__place *p, const rt__f3 *direction
     return good;
 }
 
-/* rt__meet_sphere and rt__hit_sphere_at in double, each lane with the sphere that is
- * nearest to it. Returns t; what chapter 1 does in rare cases only is left to others, see
- * rt__find. */
-RT__INLINE rt__f rt__finish_spheres(const rt__table *s, const rt__place *p, rt__f3 u,
-                                    rt__i at, rt__f radius, rt__hits *hits)
-{
-    const rt__f3 center =
-        rt__vec(rt__pick(s->x, at, s->count), rt__pick(s->y, at, s->count),
-                rt__pick(s->z, at, s->count));
-    rt__d3 o[2], v[2], mid[2], points[2], normals[2];
-    rt__d r[2], ts[2];
-    rt__vhalves(p->origin, o);
-    rt__vhalves(u, v);
-    rt__vhalves(center, mid);
-    rt__halves(radius, r);
-    for (int h = 0; h < 2; h++) {
-        const rt__d3 f = rt__dsub(o[h], mid[h]);
-        const rt__d a = rt__ddot(v[h], v[h]), b = rt__ddot(f, v[h]);
-        const rt__d c = rt__ddot(f, f) - r[h] * r[h];
-        const rt__d root = rt__dsqrt(b * b - a * c);
-        rt__d minus_at = b + root;
-        if (__builtin_expect(p->near_any, 0)) { /* inside, the other root */
-            const rt__l in = minus_at > 0.0;
-            minus_at = (rt__d)((in & (rt__l)(b - root)) | (~in & (rt__l)minus_at));
-        }
-        ts[h] = minus_at / -a;
-        const rt__d3 m = rt__dscale(rt__dmad(f, ts[h], v[h]), 1.0 / r[h]);
-        normals[h] = rt__dscale(m, 1.5 - 0.5 * rt__ddot(m, m));
-        points[h] = rt__dmad(mid[h], r[h], normals[h]);
-    }
-    hits->point = rt__vjoin(points);
-    hits->normal = rt__vjoin(normals);
-    return rt__join(ts[0], ts[1]);
-}
-
-static void rt__find_in_tree(const rt_scene *scene, const rt__place *p,
+static void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
                              const rt__f3 *direction, unsigned lanes, rt__hits *hits);
 
 /* rt_intersect of a scene with few shapes. */
@@ -3537,53 +3502,51 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
                          rt__hits *hits)
 {
     const rt__table *s = job->table;
-    const rt__f a = rt__dot(u, u), zero = rt__splat(0.0f);
+    const rt__f a = rt__dot(u, u), zero = rt__all(0.0f);
     const rt__nearest n = rt__ask_all(s, p, u, a);
-    const rt__m missed = rt__less(n.best, rt__splat(0.5f * RT__NEVER));
-    const rt__f radius = rt__pick(s->radius, n.at, s->count);
-    const rt__f t = rt__finish_spheres(s, p, u, n.at, radius, hits);
-    /* the side that the ray comes from; so flat, only chapter 1 can tell */
+    const rt__m missed = rt__less(n.best, rt__all(0.5f * RT__NEVER));
+    const rt__f r = rt__pick(s->radius, n.at, s->count);
+    const rt__f3 center = rt__vpick(&s->place, n.at, s->count);
+    const rt__f t = rt__finish_spheres(p, u, center, r, hits);
     const rt__f toward = rt__dot(hits->normal, u);
     const rt__m within = rt__less(zero, toward);
-    const rt__m flat = rt__less(rt__fabs(toward), rt__splat(4e-6f));
     hits->normal =
-        rt__vselect(within, rt__scale(hits->normal, rt__splat(-1.0f)), hits->normal);
+        rt__vselect(within, rt__scale(hits->normal, rt__all(-1.0f)), hits->normal);
     hits->left = rt__iselect(within, ~n.at, n.at);
-    hits->kind = rt__select(missed, rt__splat(-1.0f), rt__pick(s->kind, n.at, s->count));
-    hits->albedo =
-        rt__vec(rt__pick(s->red, n.at, s->count), rt__pick(s->green, n.at, s->count),
-                rt__pick(s->blue, n.at, s->count));
-    /* Nearer than any other? The others' keys are wrong by b and two roundings more, in
-     * all less than 2^-20 s |u|. Not at t = 0, nor from more than some 9e4 radii away,
-     * where chapter 1 takes another way. */
+    hits->kind = rt__select(missed, rt__all(-1.0f), rt__pick(s->kind, n.at, s->count));
+    hits->albedo = rt__vpick(&s->albedo, n.at, s->count);
+    /* Nearer than any other? The key of another sphere is wrong by b and two roundings
+     * more, a and t of this one by some; in all by less than 2^-19 s |u|. */
     const rt__f slack = (p->size + s->largest) * (1.9073486328125e-6f / RT__DOUBT);
-    const rt__f limit = -n.others - slack * (0.5f * a + 0.5f);
-    const rt__m sphere = rt__less(zero, radius);
-    const rt__m good = sphere & rt__less(rt__splat(1e-30f), t) & rt__less(a * t, limit) &
-                       rt__less(t * t * a, radius * radius * 8e9f) & rt__no(flat);
+    const rt__f limit = n.others + slack * (0.5f * a + 0.5f); /* not less than |u| */
+    /* Left to chapter 1: t = 0; from afar, where it takes another way; and so flat that it
+     * is not sure which side the ray comes from. */
+    const rt__m sphere = rt__less(zero, r);
+    const rt__m good = sphere & rt__less(rt__all(1e-30f), t) & rt__less(limit, a * -t) &
+                       rt__less(t * t * a, r * r * 8e9f) &
+                       rt__less(rt__all(4e-6f), rt__abs(toward));
     rt__m ask = lanes & rt__no(missed | good);
     if (!rt__any(ask))
         return;
     const rt__m boxes = ask & rt__no(sphere);
     if (rt__any(boxes))
-        ask &= rt__no(rt__finish_boxes(s, p, &u, boxes, &n.at, &limit, hits));
+        ask &= rt__no(rt__finish_boxes(s, &p->origin, &u, boxes, &n.at, &limit, hits));
     if (rt__any(ask))
-        rt__find_in_tree(job->scene, p, &u, rt__bits(ask), hits);
+        rt__find_in_tree(job->scene, &p->origin, &u, rt__bits(ask), hits);
 }
 
-/* ---- chapter 8: alone through the tree -------------------------------------------- */
+/* ---- chapter 8: alone through the tree ---------------------------------------------- */
 
-#if RT__LANES == 16 /* a node has eight boxes, in eight lanes */
+#if RT__LANES == 16 /* a node has eight boxes */
 typedef float rt__boxes __attribute__((vector_size(32)));
-#define rt__bmin(a, b) ((rt__boxes)_mm256_min_ps((__m256)(a), (__m256)(b)))
-#define rt__bmax(a, b) ((rt__boxes)_mm256_max_ps((__m256)(a), (__m256)(b)))
-#define rt__bnot_less(a, b)                                                              \
-    ((unsigned)_mm256_movemask_ps(_mm256_cmp_ps((__m256)(a), (__m256)(b), _CMP_NLT_UQ)))
+#define rt__bmin(a, b) ((rt__boxes)_mm256_min_ps(a, b))
+#define rt__bmax(a, b) ((rt__boxes)_mm256_max_ps(a, b))
+#define rt__bbits(m) ((unsigned)_mm256_movemask_ps((__m256)(m)))
 #else
 typedef rt__f rt__boxes;
-#define rt__bmin(a, b) rt__fmin(a, b)
-#define rt__bmax(a, b) rt__fmax(a, b)
-#define rt__bnot_less(a, b) rt__bits(~((a) < (b)))
+#define rt__bmin(a, b) rt__min(a, b)
+#define rt__bmax(a, b) rt__max(a, b)
+#define rt__bbits(m) rt__bits(m)
 #endif
 
 /* rt__trim. */
@@ -3599,7 +3562,7 @@ RT__INLINE void rt__trim_boxes(const float *min, const float *max, float origin,
     *t_out = rt__bmin(*t_out, rt__bmax(low, high));
 }
 
-/* rt__enter: the lanes are the boxes of the node. */
+/* rt__enter: here the lanes are the boxes of a node. */
 RT__INLINE unsigned rt__enter_boxes(const rt_bvh_node *node, const rt_ray *ray,
                                     rt_vec3 inverse, float t_max, float *t)
 {
@@ -3613,14 +3576,14 @@ RT__INLINE unsigned rt__enter_boxes(const rt_bvh_node *node, const rt_ray *ray,
         rt__trim_boxes(node->min_z + k, node->max_z + k, o.z, inverse.z, &t_in, &t_out);
         t_in = t_in * (1.0f - 4.0f * FLT_EPSILON);
         memcpy(t + k, &t_in, sizeof t_in);
-        result |= rt__bnot_less(t_out, t_in) << k;
+        result |= rt__bbits(t_in <= t_out) << k;
     }
     return result & ((1u << node->count) - 1u);
 }
 
-RT__INLINE rt_vec3 rt__lane(rt__f3 v, int lane)
+RT__INLINE rt_vec3 rt__lane(const rt__f3 *v, int lane)
 {
-    return rt_vec(v.x[lane], v.y[lane], v.z[lane]);
+    return rt_vec(v->x[lane], v->y[lane], v->z[lane]);
 }
 
 RT__INLINE void rt__set_lane(rt__f3 *v, int lane, rt_vec3 to)
@@ -3630,11 +3593,10 @@ RT__INLINE void rt__set_lane(rt__f3 *v, int lane, rt_vec3 to)
     v->z[lane] = to.z;
 }
 
-/* rt_intersect and rt_occluded, one ray after the other: for scenes with many shapes, and
- * for lanes in doubt. Here a rare shape, or one that is hard to do in lanes, would be
- * asked, too. */
+/* rt_intersect, one ray after the other: for many shapes, and for lanes in doubt. A new
+ * kind of shape that is rare would be asked here, too. */
 static __attribute__((noinline)) void rt__find_in_tree(const rt_scene *scene,
-                                                       const rt__place *p,
+                                                       const rt__f3 *origin,
                                                        const rt__f3 *direction,
                                                        unsigned lanes, rt__hits *hits)
 {
@@ -3642,13 +3604,12 @@ static __attribute__((noinline)) void rt__find_in_tree(const rt_scene *scene,
         const int lane = rt__lowest(lanes);
         rt_ray ray;
         rt_hit hit;
-        ray.origin = rt__lane(p->origin, lane);
-        ray.direction = rt__lane(*direction, lane);
+        ray.origin = rt__lane(origin, lane);
+        ray.direction = rt__lane(direction, lane);
         const int number = rt__search(scene, &ray, FLT_MAX, false, rt__enter_boxes);
-        if (number < 0 || !rt__hit_shape(scene, number, &ray, 0.0, &hit)) {
-            hits->kind[lane] = -1.0f;
+        hits->kind[lane] = -1.0f;
+        if (number < 0 || !rt__hit_shape(scene, number, &ray, 0.0, &hit))
             continue;
-        }
         hits->kind[lane] = hit.material->mirror ? 1.0f : 0.0f;
         hits->left[lane] = RT__NOWHERE;
         rt__set_lane(&hits->point, lane, hit.point);
@@ -3657,105 +3618,108 @@ static __attribute__((noinline)) void rt__find_in_tree(const rt_scene *scene,
     }
 }
 
-/* The lanes that do not see the light at t = 1. */
-static __attribute__((noinline)) rt__m rt__blocked_in_tree(const rt_scene *scene,
-                                                           const rt__place *p,
-                                                           const rt__f3 *direction,
-                                                           unsigned lanes)
+/* rt_occluded likewise, up to the light at t = 1. */
+static __attribute__((noinline)) rt__m rt__shade_in_tree(const rt_scene *scene,
+                                                         const rt__f3 *origin,
+                                                         const rt__f3 *direction,
+                                                         unsigned lanes)
 {
     rt__f blocked = {0.0f};
     for (; lanes != 0; lanes &= lanes - 1u) {
         const int lane = rt__lowest(lanes);
         rt_ray ray;
-        ray.origin = rt__lane(p->origin, lane);
-        ray.direction = rt__lane(*direction, lane);
-        blocked[lane] =
-            rt__search(scene, &ray, 1.0f, true, rt__enter_boxes) >= 0 ? 1.0f : 0.0f;
+        ray.origin = rt__lane(origin, lane);
+        ray.direction = rt__lane(direction, lane);
+        if (rt__search(scene, &ray, 1.0f, true, rt__enter_boxes) >= 0)
+            blocked[lane] = 1.0f;
     }
-    return rt__less(rt__splat(0.0f), blocked);
+    return rt__less(rt__all(0.0f), blocked);
 }
 
-/* ---- chapter 4: shadows ------------------------------------------------------------ */
+/* ---- chapter 4: shadows ------------------------------------------------------------- */
 
-/* The lanes that do not see the light at t = 1, with few shapes; in *unsure those that
- * may.
- *
- * No root is needed. Both ends of the way lie outside the sphere, which is then in the
- * way if the point nearest to its centre, t = -b/a, is on it and inside: b^2 > a c. Where
- * an end may be inside, f(t) = a t^2 + 2 b t + c, so f(0) = c, f(1) = a + 2b + c, is
- * negative inside the sphere: if one end is inside and the other is not, then the way
- * crosses the surface. */
-RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt__i here,
-                               rt__f b, rt__f a, rt__m *sure, rt__m *unsure)
+/* Who does not see the light at t = 1? */
+typedef struct rt__shade {
+    rt__m sure, may;
+} rt__shade;
+
+/* A sphere that a ray may start in, or end in. f(t) = a t^2 + 2 b t + c is negative inside
+ * it, f(0) = c, f(1) = a + 2b + c: if one end is inside and the other is not, then the way
+ * crosses the surface. If both are outside, it is as in rt__shade_all. */
+RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt__f b,
+                               rt__f a, rt__shade *shade)
 {
+    const rt__f zero = rt__all(0.0f), bb = b * b;
     const rt__f size = p->size + s->size[i], doubt = size * size, twice = doubt + doubt;
-    const rt__f zero = rt__splat(0.0f), c = p->high[i] - doubt, bb = b * b;
+    const rt__i here = (rt__i)zero + i;
     const rt__m left = rt__same(p->left, here);
+    const rt__f c = p->high[i] - doubt, end = rt__fma(b, rt__all(2.0f), a) + c;
     const rt__f start = rt__select(rt__same(p->left, ~here), -2.0f * twice, c);
-    const rt__f end = rt__fma(b, rt__splat(2.0f), a) + c;
-    const rt__m unclear =
-        rt__less(rt__fabs(start), twice) | rt__less(rt__fabs(end), twice);
+    const rt__m unclear = rt__less(rt__abs(start), twice) | rt__less(rt__abs(end), twice);
     const rt__m from = rt__less(start, zero), to = rt__less(end, zero);
-    const rt__m out = rt__no(from | to) & rt__less(b, zero) & rt__less(-a, b);
-    *sure |=
-        ((from ^ to) | (out & rt__less(a * p->high[i], bb))) & rt__no(unclear | left);
-    *unsure |= (unclear | (out & rt__less(a * (c - doubt), bb))) & rt__no(left);
+    const rt__m ahead = rt__no(from | to) & rt__less(b, zero) & rt__less(-a, b);
+    shade->sure |=
+        ((from ^ to) | rt__and_less(ahead, a * (c + doubt), bb)) & rt__no(unclear | left);
+    shade->may |= (unclear | rt__and_less(ahead, a * (c - doubt), bb)) & rt__no(left);
 }
 
-RT__INLINE rt__m rt__shade(const rt__table *s, const rt__place *p, rt__f3 u, rt__m lanes,
-                           rt__m *unsure)
+/* rt_occluded up to t = 1, of a scene with few shapes. No root is needed: where both ends
+ * are outside, the sphere is in the way if the point nearest to its centre, t = -b/a, is
+ * on it and inside, b^2 / a > c. */
+RT__INLINE rt__shade rt__shade_all(const rt__table *s, const rt__place *p, rt__f3 u)
 {
-    const rt__f a = rt__dot(u, u), ou = rt__dot(p->origin, u), zero = rt__splat(0.0f);
+    const rt__f a = rt__dot(u, u), cu = rt__dot(p->origin, u), zero = rt__all(0.0f);
     const rt__f over_a = 1.0f / a, minus_a = -a;
-    rt__m sure = rt__less(zero, zero), may = sure;
+    const rt__m none = {0};
+    rt__shade shade;
+    shade.sure = shade.may = none;
     for (int i = 0; i < s->spheres; i++) {
-        const rt__f b = rt__b(s, i, u, ou), bb_over_a = b * b * over_a;
-        if (__builtin_expect(p->near_any, 0) && p->near[i]) {
-            rt__shade_near(s, p, i, (rt__i)zero + i, b, a, &sure, &may);
+        const rt__f b = rt__b(s, i, u, cu), bb_over_a = b * b * over_a;
+        if (__builtin_expect(p->any_near, 0) && p->near[i]) {
+            rt__shade_near(s, p, i, b, a, &shade);
             continue;
         }
         const rt__m ahead = rt__and_less(rt__less(b, zero), minus_a, b);
-        may |= rt__and_less(ahead, p->low[i], bb_over_a);
-        sure |= rt__and_less(ahead, p->high[i], bb_over_a);
+        shade.may |= rt__and_less(ahead, p->low[i], bb_over_a);
+        shade.sure |= rt__and_less(ahead, p->high[i], bb_over_a);
     }
-    if (s->spheres < s->count) {
-        const rt__slab_rays r = rt__for_boxes(p->origin, u);
-        const rt__f one = rt__splat(1.0f), few = rt__splat(8.0f * FLT_EPSILON);
-        for (int i = s->spheres; i < s->count; i++) {
-            rt__f t_in, t_out, doubt;
-            rt__slab(s, i, &r, &t_in, &t_out, &doubt);
-            const rt__f t = rt__select(rt__less(zero, t_in), t_in, t_out);
-            const rt__m unclear = r.parallel | rt__less(rt__fabs(t_out - t_in), doubt) |
-                                  rt__less(rt__fabs(t - 1.0f), few);
-            const rt__m blocks =
-                rt__no(rt__less(t_out, t_in)) & rt__less(zero, t) & rt__less(t, one);
-            sure |= blocks & rt__no(unclear);
-            may |= unclear;
-        }
+    if (s->spheres == s->count)
+        return shade;
+    const rt__slab_rays r = rt__for_boxes(p->origin, u);
+    for (int i = s->spheres; i < s->count; i++) {
+        rt__f t_in, t_out, doubt;
+        rt__slab(s, i, &r, &t_in, &t_out, &doubt);
+        const rt__f t = rt__select(rt__less(zero, t_in), t_in, t_out);
+        const rt__m unclear = r.parallel | rt__less(rt__abs(t_out - t_in), doubt) |
+                              rt__less(rt__abs(t - 1.0f), rt__all(8.0f * FLT_EPSILON));
+        const rt__m blocks = rt__no(rt__less(t_out, t_in)) & rt__less(zero, t) &
+                             rt__less(t, rt__all(1.0f));
+        shade.sure |= blocks & rt__no(unclear);
+        shade.may |= unclear;
     }
-    *unsure = lanes & may & rt__no(sure);
-    return sure;
+    return shade;
 }
 
-/* rt_leave. */
+/* rt_leave, where <N,direction> < 0 in the lanes below. */
 RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__m below)
 {
-    const rt__f size = rt__fmax(rt__fmax(rt__splat(1.0f), rt__fabs(point.x)),
-                                rt__fmax(rt__fabs(point.y), rt__fabs(point.z)));
+    const rt__f size = rt__max(rt__max(rt__all(1.0f), rt__abs(point.x)),
+                               rt__max(rt__abs(point.y), rt__abs(point.z)));
     const rt__f offset = size * (8.0f * FLT_EPSILON);
     return rt__add(point, rt__scale(normal, rt__select(below, -offset, offset)));
 }
 
-/* rt_direct, rt_visible and rt_lambert. A new kind of light gets its own way to choose
- * position and intensity here; the rest stays. */
+/* rt_direct, rt_visible and rt_lambert. A light with a size would draw its position here.
+ */
 RT__INLINE rt__f3 rt__light(const rt__job *job, const rt__place *p, rt__m lanes,
                             const rt__hits *hits, uint64_t *rays)
 {
     const rt_scene *scene = job->scene;
-    const rt__f zero = rt__splat(0.0f);
+    const rt__f zero = rt__all(0.0f);
+    const rt__m none = {0};
     rt__f3 sum = rt__vec(zero, zero, zero);
     for (int i = 0; i < scene->light_count; i++) {
-        const rt__f3 position = rt__all(scene->lights[i].position);
+        const rt__f3 position = rt__vall(scene->lights[i].position);
         const rt__f3 to_light = rt__sub(position, hits->point);
         const rt__f toward = rt__dot(hits->normal, to_light);
         const rt__m lit = lanes & rt__less(zero, toward);
@@ -3763,30 +3727,33 @@ RT__INLINE rt__f3 rt__light(const rt__job *job, const rt__place *p, rt__m lanes,
             continue;
         *rays += rt__count(lit);
         const rt__f3 u = rt__sub(position, p->origin);
-        rt__m blocked = rt__less(zero, zero), unsure = lit;
-        if (job->table) {
-            /* a light nearer than the step that rt_leave makes lies behind us */
-            const rt__m through = lit & rt__less(rt__dot(hits->normal, u), zero);
-            blocked = rt__shade(job->table, p, u, lit, &unsure) & rt__no(through);
-            unsure |= through;
+        rt__shade shade;
+        shade.sure = none;
+        shade.may = lit;
+        if (job->table->few) { /* a light nearer than rt_leave's step is behind the ray */
+            const rt__m behind = rt__less(rt__dot(hits->normal, u), zero);
+            shade = rt__shade_all(job->table, p, u);
+            shade.sure &= rt__no(behind);
+            shade.may |= behind;
         }
-        if (rt__any(unsure))
-            blocked |= rt__blocked_in_tree(scene, p, &u, rt__bits(unsure));
+        const rt__m ask = lit & shade.may & rt__no(shade.sure);
+        if (rt__any(ask))
+            shade.sure |= rt__shade_in_tree(scene, &p->origin, &u, rt__bits(ask));
         const rt__f dd = rt__dot(to_light, to_light);
-        const rt__m counts = lit & rt__no(blocked) & rt__less(rt__splat(1e-20f), dd) &
-                             rt__no(rt__less(rt__splat(FLT_MAX), dd));
-        const rt__f cosine = toward / rt__fsqrt(dd);
+        const rt__m counts = lit & rt__no(shade.sure) & rt__less(rt__all(1e-20f), dd) &
+                             rt__no(rt__less(rt__all(FLT_MAX), dd));
+        const rt__f cosine = toward / rt__sqrt(dd);
         const rt__f3 light =
-            rt__scale(rt__mul(hits->albedo, rt__all(scene->lights[i].intensity)),
+            rt__scale(rt__mul(hits->albedo, rt__vall(scene->lights[i].intensity)),
                       cosine / (3.14159265359f * dd));
         sum = rt__vselect(counts, rt__add(sum, light), sum);
     }
     return sum;
 }
 
-/* ---- chapters 7 and 9: random numbers, directions -------------------------------- */
+/* ---- chapters 7 and 9: random numbers, directions ----------------------------------- */
 
-/* rt_hash */
+/* rt_hash. */
 RT__INLINE rt__u rt__mix(rt__u v)
 {
     const rt__u state = v * 747796405u + 2891336453u;
@@ -3794,17 +3761,17 @@ RT__INLINE rt__u rt__mix(rt__u v)
     return (word >> 22) ^ word;
 }
 
-/* rt__reverse */
+/* rt__reverse. */
 RT__INLINE rt__u rt__backwards(rt__u v)
 {
-#ifdef RT__X86 /* bytes in reverse order, and a table for each half of a byte */
+#ifdef RT__X86 /* the bytes in reverse order, and a table for each half of a byte */
     const __m128i order = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
     const __m128i table = _mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800);
-    const rt__u w = (rt__u)rt__shuffle((rt__bytes)v, rt__rows(order));
+    const rt__u w = (rt__u)rt__shuffle((rt__bytes)v, rt__repeat(order));
     const rt__bytes low = (rt__bytes)(w & 0x0f0f0f0fu),
                     high = (rt__bytes)(w >> 4 & 0x0f0f0f0fu);
-    return (rt__u)rt__shuffle(rt__rows(table), low) << 4 |
-           (rt__u)rt__shuffle(rt__rows(table), high);
+    return (rt__u)rt__shuffle(rt__repeat(table), low) << 4 |
+           (rt__u)rt__shuffle(rt__repeat(table), high);
 #else
     v = v << 16 | v >> 16;
     v = (v & 0x00ff00ffu) << 8 | (v >> 8 & 0x00ff00ffu);
@@ -3814,7 +3781,7 @@ RT__INLINE rt__u rt__backwards(rt__u v)
 #endif
 }
 
-/* rt__scramble */
+/* rt__scramble. */
 RT__INLINE rt__u rt__owen(rt__u v, rt__u key)
 {
     v ^= v * 0x3d20adeau;
@@ -3836,7 +3803,7 @@ RT__INLINE rt__f rt__to_unit(rt__u bits)
            (1.0f / 8388608.0f);
 }
 
-/* rt_random, twice, for the next pair: all numbers are drawn in pairs. */
+/* rt_random, twice, and rt__sobol with rt__second: all numbers are drawn in pairs. */
 RT__INLINE void rt__draw(const rt__numbers *n, rt__f *r1, rt__f *r2)
 {
     rt__u first, second;
@@ -3844,7 +3811,7 @@ RT__INLINE void rt__draw(const rt__numbers *n, rt__f *r1, rt__f *r2)
         const rt__u key = rt__mix(n->key + (n->dimension >> 1));
         rt__u index = rt__backwards(rt__owen(n->sample, key));
         first = rt__backwards(rt__owen(index, rt__mix(key + 1u)));
-        index ^= index >> 16 & 0x0000ffffu; /* rt__second */
+        index ^= index >> 16 & 0x0000ffffu;
         index ^= index >> 8 & 0x00ff00ffu;
         index ^= index >> 4 & 0x0f0f0f0fu;
         index ^= index >> 2 & 0x33333333u;
@@ -3867,26 +3834,26 @@ RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
     const rt__f xx = x * x;
     const rt__f s3 = -1.6666654611e-1f + xx * (8.3321608736e-3f - xx * 1.9515295891e-4f);
     const rt__f c4 = 4.1666645683e-2f + xx * (-1.3887316255e-3f + xx * 2.4433157118e-5f);
-    const rt__f s = x + x * xx * s3;
-    const rt__f c = 1.0f + (xx * xx * c4 - 0.5f * xx);
+    const rt__f s = x + x * xx * s3, c = 1.0f + (xx * xx * c4 - 0.5f * xx);
     const rt__m even = rt__same(quarter & 1, quarter & 0);
-    const rt__f sine_size = rt__select(even, s, c), cosine_size = rt__select(even, c, s);
-    const rt__f sine = (rt__f)((rt__i)sine_size ^ ((quarter & 2) << 30));
-    const rt__f cosine = (rt__f)((rt__i)cosine_size ^ (((quarter + 1) & 2) << 30));
+    const rt__f sine =
+        (rt__f)((rt__i)rt__select(even, s, c) ^ ((quarter & 2) << 30)); /* its sign */
+    const rt__f cosine =
+        (rt__f)((rt__i)rt__select(even, c, s) ^ (((quarter + 1) & 2) << 30));
 
-    const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
-    const rt__f sign = rt__select(rt__less(n.z, zero), -one, one);
+    const rt__f one = rt__all(1.0f);
+    const rt__f sign = rt__select(rt__less(n.z, one - one), -one, one);
     const rt__f k = -1.0f / (sign + n.z);
     const rt__f m = n.x * n.y * k;
     const rt__f3 a = rt__vec(1.0f + sign * n.x * n.x * k, sign * m, -sign * n.x);
     const rt__f3 b = rt__vec(m, sign + n.y * n.y * k, -n.y);
 
-    const rt__f radius = rt__fsqrt(1.0f - r2);
+    const rt__f radius = rt__sqrt(1.0f - r2);
     return rt__add(rt__add(rt__scale(a, cosine * radius), rt__scale(b, sine * radius)),
-                   rt__scale(n, rt__fsqrt(r2)));
+                   rt__scale(n, rt__sqrt(r2)));
 }
 
-/* ---- the whole path -------------------------------------------------------------- */
+/* ---- the whole path ----------------------------------------------------------------- */
 
 /* A packet on its way. A lane whose path has ended stays until the last one ends. */
 typedef struct rt__packet {
@@ -3897,71 +3864,76 @@ typedef struct rt__packet {
     rt__place place;
 } rt__packet;
 
-/* What rt_radiance does in one round, in three parts. The nearest hit: */
-RT__INLINE void rt__go(const rt__job *job, rt__packet *p)
+/* rt_radiance, its loop in three parts. First the nearest hit, ... */
+RT__INLINE void rt__extend(const rt__job *job, rt__packet *p)
 {
-    if (job->table)
+    if (job->table->few)
         rt__find(job, &p->place, p->direction, p->lanes, &p->hits);
     else
-        rt__find_in_tree(job->scene, &p->place, &p->direction, rt__bits(p->lanes),
+        rt__find_in_tree(job->scene, &p->place.origin, &p->direction, rt__bits(p->lanes),
                          &p->hits);
 }
 
-/* background and direct light; */
+/* The next rays start where this one hit, in the lanes below behind the surface. */
+RT__INLINE void rt__set_out(const rt__job *job, rt__packet *p, rt__m below)
+{
+    const rt__i nowhere = (p->hits.left & 0) + RT__NOWHERE;
+    rt__start_at(job->table, &p->place, rt__leave(p->hits.point, p->hits.normal, below),
+                 rt__iselect(below, nowhere, p->hits.left));
+}
+
+/* ... then background and direct light, ... */
 RT__INLINE void rt__collect(const rt__job *job, rt__packet *p, uint64_t *rays)
 {
-    const rt__f zero = rt__splat(0.0f);
     const rt__hits *hits = &p->hits;
+    const rt__f zero = rt__all(0.0f);
+    const rt__m none = {0};
     const rt__m missed = p->lanes & rt__less(hits->kind, zero);
     if (rt__any(missed)) {
-        const rt__f3 light = rt__mul(p->throughput, rt__all(job->scene->background));
+        const rt__f3 light = rt__mul(p->throughput, rt__vall(job->scene->background));
         p->sum = rt__vselect(missed, rt__add(p->sum, light), p->sum);
         p->lanes &= rt__no(missed);
     }
-    const rt__m above = rt__less(zero, zero),
-                diffuse = p->lanes & rt__no(rt__less(zero, hits->kind));
-    rt__set_out(job->table, &p->place, rt__leave(hits->point, hits->normal, above),
-                hits->left);
+    rt__set_out(job, p, none);
+    const rt__m diffuse = p->lanes & rt__no(rt__less(zero, hits->kind));
     const rt__f3 light = rt__light(job, &p->place, diffuse, hits, rays);
     p->sum = rt__vselect(diffuse, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
 }
 
-/* and the way on. A new kind of material gets its direction here, and a select; one that is rare, lane by lane, by the chapter's own function. */
+/* ... and the way on. A new kind of material computes its direction here, for all lanes,
+ * and is one more select; a rare one asks its chapter's function, lane by lane. */
 RT__INLINE void rt__bounce(const rt__job *job, rt__packet *p, int bounce)
 {
-    const rt__f zero = rt__splat(0.0f);
+    const rt__f zero = rt__all(0.0f);
     const rt__f3 n = p->hits.normal, u = p->direction, rho = p->hits.albedo;
     const rt__m mirror = rt__less(zero, p->hits.kind);
-    const rt__u two = ((rt__u)zero | 2u);
+    const rt__i two = (rt__i)zero + 2;
     rt__f r1, r2;
     rt__draw(&p->numbers, &r1, &r2);
-    p->numbers.dimension += (rt__u)rt__iselect(mirror, zero, two);
+    p->numbers.dimension += (rt__u)rt__iselect(mirror, two - 2, two);
     const rt__f un = rt__dot(u, n);
     const rt__f3 reflected = rt__sub(u, rt__scale(n, 2.0f * un));
     p->direction = rt__vselect(mirror, reflected, rt__cosine(n, r1, r2));
     const rt__m lossless =
-        mirror & rt__no(rt__less(zero, rt__fmax(rho.x, rt__fmax(rho.y, rho.z))));
+        mirror & rt__no(rt__less(zero, rt__max(rho.x, rt__max(rho.y, rho.z))));
     p->throughput = rt__vselect(lossless, p->throughput, rt__mul(p->throughput, rho));
-    rt__f most = rt__fmax(p->throughput.x, rt__fmax(p->throughput.y, p->throughput.z));
-    p->lanes &= rt__no(rt__less(most, rt__splat(FLT_MIN)));
+    const rt__f most =
+        rt__max(p->throughput.x, rt__max(p->throughput.y, p->throughput.z));
+    p->lanes &= rt__no(rt__less(most, rt__all(FLT_MIN))); /* rt__is_spent */
     if (job->options.bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
-        const rt__f chance = rt__fmin(most, rt__splat(0.95f));
+        const rt__f chance = rt__min(most, rt__all(0.95f)); /* rt__chance */
         rt__draw(&p->numbers, &r1, &r2);
-        p->numbers.dimension += two;
+        p->numbers.dimension += 2u;
         p->lanes &= rt__less(r1, chance);
         p->throughput = rt__scale(p->throughput, 1.0f / chance);
     }
-    /* a reflection so flat that it goes through the surface */
-    const rt__m flat = p->lanes & mirror & rt__less(rt__fabs(un), rt__splat(1e-5f));
-    if (__builtin_expect(rt__any(flat), 0)) {
-        const rt__m through = rt__less(rt__dot(n, p->direction), zero);
-        rt__set_out(job->table, &p->place, rt__leave(p->hits.point, n, through),
-                    rt__iselect(through, (rt__i)zero + RT__NOWHERE, p->hits.left));
-    }
+    /* a reflection so flat that rounding may send it through the surface */
+    const rt__m flat = p->lanes & mirror & rt__less(rt__abs(un), rt__all(1e-5f));
+    if (__builtin_expect(rt__any(flat), 0))
+        rt__set_out(job, p, rt__less(rt__dot(n, p->direction), zero));
 }
 
-/* Two packets at a time: while one waits for its roots and quotients, the core works on
- * the other. */
+/* Two packets at a time: while one waits for a root, the core works on the other. */
 enum { RT__FLIGHT = 2 };
 
 RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count,
@@ -3969,11 +3941,11 @@ RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count
 {
     uint64_t rays = 0;
     for (int bounce = 0;; bounce++) {
-        int going = 0;
+        bool done = true;
         for (int k = 0; k < count; k++) {
             rays += rt__count(packets[k].lanes);
             rt__tick(watch);
-            rt__go(job, &packets[k]);
+            rt__extend(job, &packets[k]);
         }
         for (int k = 0; k < count; k++)
             rt__collect(job, &packets[k], &rays);
@@ -3981,67 +3953,58 @@ RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count
             return rays;
         for (int k = 0; k < count; k++) {
             rt__bounce(job, &packets[k], bounce);
-            going += rt__any(packets[k].lanes) ? 1 : 0;
+            done = done && !rt__any(packets[k].lanes);
         }
-        if (going == 0)
+        if (done)
             return rays;
     }
 }
 
-/* The first rays, of some pixels from number first on: rt__start, rt__look and
- * rt__film_ray. */
+/* rt__start, rt__look and rt__film_ray: the pixels from number first on. */
 RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
                           rt__packet *p)
 {
     const int width = job->image->width;
     const rt__film *film = &job->film;
+    const bool sobol = job->options.sampler == RT_SOBOL;
+    const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
     uint32_t seed;
     const uint32_t index = rt__sequence(job, sample, &seed);
-    const rt__f zero = rt__splat(0.0f), one = rt__splat(1.0f);
     rt__i lane = (rt__i)zero;
     for (int k = 0; k < RT__LANES; k++)
         lane[k] = k;
-    const rt__i pixel = lane + first;
-    int most = first % width + RT__LANES - 1;
     rt__i column = lane + first % width, row = (rt__i)zero + first / width;
-    for (; most >= width; most -= width) {
+    for (int most = first % width + RT__LANES - 1; most >= width; most -= width) {
         const rt__i over = (width - 1 - column) >> 31; /* -1: in the next row */
         column += over & -width;
         row -= over;
     }
-    rt__f x = __builtin_convertvector(column, rt__f),
-          y = __builtin_convertvector(row, rt__f);
-    const rt__f inside = __builtin_convertvector(last - pixel, rt__f);
     rt__numbers *numbers = &p->numbers;
-    numbers->sobol = job->options.sampler == RT_SOBOL;
+    numbers->sobol = sobol;
     numbers->key =
-        rt__mix((rt__u)pixel + rt_hash((numbers->sobol ? 0 : index) + rt_hash(seed)));
+        rt__mix((rt__u)(lane + first) + rt_hash((sobol ? 0 : index) + rt_hash(seed)));
     numbers->dimension = (rt__u)zero;
     numbers->sample = (rt__u)zero + rt__reverse(index);
     rt__f dx, dy;
     rt__draw(numbers, &dx, &dy);
     numbers->dimension += 2u;
-    x = x + dx;
-    y = y + dy;
-
-    rt__d xd[2], yd[2];
+    const rt__f x = __builtin_convertvector(column, rt__f) + dx;
+    const rt__f y = __builtin_convertvector(row, rt__f) + dy;
     rt__d3 d[2];
-    rt__halves(x, xd);
-    rt__halves(y, yd);
     for (int h = 0; h < 2; h++) {
-        const rt__d to_right = film->size * (xd[h] - film->half_width);
-        const rt__d to_top = film->size * (film->half_height - yd[h]);
+        const rt__d to_right = film->size * (rt__widen(x, h) - film->half_width);
+        const rt__d to_top = film->size * (film->half_height - rt__widen(y, h));
         d[h].x = film->forward.x + to_right * film->right.x + to_top * film->top.x;
         d[h].y = film->forward.y + to_right * film->right.y + to_top * film->top.y;
         d[h].z = film->forward.z + to_right * film->right.z + to_top * film->top.z;
         d[h] = rt__dscale(d[h], 1.0 / rt__dsqrt(rt__ddot(d[h], d[h])));
     }
-    p->lanes = rt__less(zero, inside);
     p->direction = rt__vjoin(d);
+    p->lanes = rt__less(zero, __builtin_convertvector(last - first - lane, rt__f));
     p->sum = rt__vec(zero, zero, zero);
     p->throughput = rt__vec(one, one, one);
-    rt__set_out(job->table, &p->place, rt__all(film->position),
-                (rt__i)zero + RT__NOWHERE);
+    rt__start_at(job->table, &p->place, rt__vall(film->position),
+                 (rt__i)zero + RT__NOWHERE);
 }
 
 /* rt__step_pixels with rt__pixel. */
@@ -4055,23 +4018,20 @@ static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int 
         for (int from = i; count < RT__FLIGHT && from < last; from += RT__LANES)
             rt__begin(job, sample, from, last, &packets[count++]);
         rays += rt__trace(job, packets, count, watch);
-        for (int k = 0; k < count; k++) {
-            float x[RT__LANES], y[RT__LANES], z[RT__LANES];
-            memcpy(x, &packets[k].sum.x, sizeof x);
-            memcpy(y, &packets[k].sum.y, sizeof y);
-            memcpy(z, &packets[k].sum.z, sizeof z);
+        for (int k = 0; k < count; k++)
             for (int lane = 0; lane < RT__LANES && i < last; lane++)
-                values[i++ - first] = rt_vec(x[lane], y[lane], z[lane]);
-        }
+                values[i++ - first] = rt__lane(&packets[k].sum, lane);
     }
     return rays;
 }
 
-/* Are all numbers neither so large that their squares are too much for float, nor so small that a
- * ray which leaves a shape, see rt_leave, is on the other side of it already? */
+/* ---- which scenes ------------------------------------------------------------------- */
+
+/* Few shapes, of numbers so moderate that squares are good floats, and no sphere so small
+ * that rt_leave's step is on the other side of it? */
 static bool rt__are_few(const rt_scene *scene, const rt_camera *camera)
 {
-    const float most = RT__MODERATE;
+    const float most = 1e7f;
     bool good = scene->sphere_count + scene->box_count <= RT__FEW &&
                 rt__within(camera->position, -most, most);
     for (int i = 0; good && i < scene->sphere_count; i++) {
@@ -4087,64 +4047,63 @@ static bool rt__are_few(const rt_scene *scene, const rt_camera *camera)
     return good;
 }
 
-/* Is this light in the sphere, or so near to it that rt__shade may not tell? */
-static bool rt__is_by(const rt_sphere *sphere, float size, const rt_light *light)
+/* Is the light in this sphere of the table, or so near to it that c + a + 2b is not surely
+ * above its doubt? */
+static bool rt__is_near(const rt_sphere *sphere, float size, const rt_light *light)
 {
     const rt_dvec3 l = rt_to_double(light->position);
     const rt_dvec3 f = rt_dsub(l, rt_to_double(sphere->center));
-    const double both = (double)size + (double)RT__DOUBT * sqrt(rt_ddot(l, l));
-    return rt_ddot(f, f) - (double)sphere->radius * (double)sphere->radius <
-           4.0 * both * both;
+    const double s = (double)size + (double)RT__DOUBT * sqrt(rt_ddot(l, l));
+    return rt_ddot(f, f) - (double)sphere->radius * (double)sphere->radius < 4.0 * s * s;
+}
+
+static void rt__put(rt__column *c, int i, rt_vec3 v)
+{
+    c->x[i] = v.x;
+    c->y[i] = v.y;
+    c->z[i] = v.z;
 }
 
 static void rt__set_table(rt__table *s, const rt_scene *scene)
 {
-    memset(s, 0, sizeof *s);
     s->spheres = scene->sphere_count;
     s->count = s->spheres + scene->box_count;
     for (int i = 0; i < s->count; i++) {
         const rt_sphere *sphere = i < s->spheres ? &scene->spheres[i] : NULL;
         const rt_box *box = sphere ? NULL : &scene->boxes[i - s->spheres];
         const rt_material *material = sphere ? &sphere->material : &box->material;
-        const rt_vec3 place = sphere ? sphere->center : box->min;
-        s->x[i] = place.x;
-        s->y[i] = place.y;
-        s->z[i] = place.z;
-        s->red[i] = material->albedo.x;
-        s->green[i] = material->albedo.y;
-        s->blue[i] = material->albedo.z;
+        rt__put(&s->place, i, sphere ? sphere->center : box->min);
+        rt__put(&s->albedo, i, material->albedo);
         s->kind[i] = material->mirror ? 1.0f : 0.0f;
         if (box) {
-            s->max_x[i] = box->max.x;
-            s->max_y[i] = box->max.y;
-            s->max_z[i] = box->max.z;
+            rt__put(&s->max, i, box->max);
             continue;
         }
-        const rt_dvec3 o = rt_to_double(place);
+        const rt_dvec3 o = rt_to_double(sphere->center);
         const double oo = rt_ddot(o, o), r = (double)sphere->radius;
         s->radius[i] = sphere->radius;
         s->power[i] = (float)(oo - r * r);
         s->size[i] = RT__DOUBT * (float)(oo > r * r ? sqrt(oo) : r) + 1e-10f;
         s->largest = s->size[i] > s->largest ? s->size[i] : s->largest;
         for (int k = 0; k < scene->light_count; k++)
-            s->by_light[i] =
-                s->by_light[i] || rt__is_by(sphere, s->size[i], &scene->lights[k]);
-        s->light_inside = s->light_inside || s->by_light[i];
+            s->near_light[i] =
+                s->near_light[i] || rt__is_near(sphere, s->size[i], &scene->lights[k]);
+        s->light_near = s->light_near || s->near_light[i];
     }
 }
 
 /* rt__run, in packets. The scene must have its tree. */
 static rt_status rt__run_packets(rt__job *job)
 {
-    const rt_scene *scene = job->scene;
     rt__table table;
-    if (rt__are_few(scene, job->camera)) {
-        rt__set_table(&table, scene);
-        job->table = &table;
-    }
+    memset(&table, 0, sizeof table);
+    table.few = rt__are_few(job->scene, job->camera);
+    if (table.few)
+        rt__set_table(&table, job->scene);
+    job->table = &table;
     job->step = rt__step_packets;
     job->together = RT__LANES * RT__FLIGHT;
-    job->ticks = job->table ? 64 : 1;
+    job->ticks = table.few ? 64 : 1;
     return rt__run(job);
 }
 

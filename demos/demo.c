@@ -42,33 +42,32 @@ typedef struct settings {
 
 static void print_help(const demo *d)
 {
-    printf(
-        "%s - %s\n\n"
-        "  build/%s [WIDTH HEIGHT] [options]        (default 640 480)\n"
-        "  make %s ARGS=\"WIDTH HEIGHT options\"\n\n"
-        "  --samples N   samples per pixel (default %d; with --error or --time no "
-        "limit)\n"
-        "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
-        "  --time S      stop after S seconds\n"
-        "  --bounces N   how often a ray is sent on (default %d%s);\n"
-        "                all: until nothing is left (chapters 7 to 9)\n"
-        "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
-        "  --lanes N     rays at a time: 1, or as many as this build has (default: %s)\n"
-        "  --sampler S   random or sobol numbers (default %s)\n"
-        "  --seed N      another seed, another noise (default 0)\n"
-        "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
-        "                or %s.png where there is no folder build)\n"
-        "  --explain X,Y only print what happens in this pixel (chapters 7 to 9)\n"
-        "  --no-window   only render and write\n"
-        "  --preview     draw the picture in the terminal, too, as it refines\n"
-        "  --quiet       print nothing but errors\n"
-        "  --help        this\n\n"
-        "In the window: h shows the keys; s saves, Esc or q ends. Ctrl-C saves what "
-        "there is and ends.\n",
-        d->name, d->title, d->name, d->name, d->samples, d->bounces,
-        d->bounces == 0 ? "; this chapter has none yet" : "",
-        d->render ? "as many as the machine can" : "1; this chapter has no more",
-        d->sobol ? "sobol" : "random", d->name, d->name);
+    printf("%s - %s\n\n"
+           "  build/%s [WIDTH HEIGHT] [options]        (default 640 480)\n"
+           "  make %s ARGS=\"WIDTH HEIGHT options\"\n\n"
+           "  --samples N   samples per pixel (default %d; with --error or --time no "
+           "limit)\n"
+           "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
+           "  --time S      stop after S seconds\n"
+           "  --bounces N   how often a ray is sent on (default %d%s);\n"
+           "                all: until nothing is left (chapters 7 to 9)\n"
+           "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
+           "  --lanes N     rays at a time: 1, or all that this build has (default: %s)\n"
+           "  --sampler S   random or sobol numbers (default %s)\n"
+           "  --seed N      another seed, another noise (default 0)\n"
+           "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
+           "                or %s.png where there is no folder build)\n"
+           "  --explain X,Y only print what happens in this pixel (chapters 7 to 9)\n"
+           "  --no-window   only render and write\n"
+           "  --preview     draw the picture in the terminal, too, as it refines\n"
+           "  --quiet       print nothing but errors\n"
+           "  --help        this\n\n"
+           "In the window: h shows the keys; s saves, Esc or q ends. Ctrl-C saves what "
+           "there is and ends.\n",
+           d->name, d->title, d->name, d->name, d->samples, d->bounces,
+           d->bounces == 0 ? "; this chapter has none yet" : "",
+           d->render ? "as many as the machine can" : "1; this chapter has no more",
+           d->sobol ? "sobol" : "random", d->name, d->name);
 }
 
 /* A whole number from low to high, digits only; otherwise one line that says so. */
