@@ -1575,9 +1575,8 @@ typedef struct rt_options {
     float seconds;      /* stop after this time, with at least one sample; 0: never. (The
                            processor's time without OpenMP, if the C library is older than
                            C11 or told to be) */
-    int lanes; /* rays that rt_render traces at a time: 1, as chapters 1 to 7 do, or 4, 8
-                  or 16 if rt_lane_count has them; 0: as many as it has. The same picture.
-                */
+    int lanes; /* rays that rt_render traces at a time: 1, as chapters 1 to 7 do, or all
+                  that rt_lane_count(0) has; 0: all. The same picture */
 } rt_options;
 
 /* How it went; rt_status_text says it in words. */
@@ -1724,11 +1723,14 @@ RTDEF rt_status rt_check_camera(const rt_camera *camera);
  * 1024. */
 RTDEF int rt_thread_count(int wanted);
 
-/* How many rays rt_render traces at a time for options->lanes = wanted: 1, 4, 8 or 16, at
- * most what machine and compiler offer. What rt_render refuses counts as the nearest
- * below that it takes, and negative as 0. (Packets are compiled by gcc and clang, with
- * optimisation, for x86 - 4 lanes with SSE2, 8 with AVX2 and FMA, 16 with AVX-512, found
- * out when the program runs - and for 64-bit ARM, 4 lanes.) */
+/* How many rays rt_render traces at a time for options->lanes = wanted: 1, or for 0 all
+ * that there are, the same number in a whole program. What rt_render refuses counts as
+ * the nearest below that it takes, and negative as 0.
+ *
+ * gcc and clang, told to optimise, compile packets of 8 rays for x86 (AVX2 and FMA: where
+ * the machine that runs the program lacks them, it is 1), of 16 if told that it has
+ * AVX-512, as by -march=native; of 4 for 64-bit ARM and for WebAssembly with -msimd128.
+ * Anywhere else it is 1. */
 RTDEF int rt_lane_count(int wanted);
 
 /* What a status means, in English, without a full stop. Never NULL. */
@@ -1897,8 +1899,7 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_ERROR:
         return "error: make it at least 0, and give image.half memory, or make it 0";
     case RT_BAD_SECONDS: return "seconds: make it at least 0; 0 is no limit";
-    case RT_BAD_LANES:
-        return "lanes: make it 0, or 1, 4, 8 or 16, at most what rt_lane_count(0) says";
+    case RT_BAD_LANES: return "lanes: make it 0, 1, or what rt_lane_count(0) says";
     case RT_BAD_BVH:
         return "bvh: build it with rt_build_bvh after the last change of the scene, or "
                "set "
@@ -1998,9 +1999,9 @@ RTDEF int rt_thread_count(int wanted)
 #endif
 }
 
-/* How many rays at a time? See the last section. None where the compiler does not optimise:
- * there packets would take longer. RT_NO_PACKETS leaves them out, RT_PACKETS takes them in
- * all the same. */
+/* How many rays at a time? See the last section. None where the compiler does not
+ * optimise: there packets would take longer. RT_NO_PACKETS leaves them out, RT_PACKETS
+ * takes them in all the same. */
 #if defined(__GNUC__) && !defined(RT_NO_PACKETS) && !defined(RT__OWN) &&                 \
     (defined(__OPTIMIZE__) || defined(RT_PACKETS))
 #if defined(__SSE2_MATH__)
@@ -2900,8 +2901,98 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
     return RT_OK;
 }
 
+/* ---- what packets of rays want to know of a scene -------------------------------- */
+
 #if RT__LANES > 1
-static rt_status rt__run_packets(rt__job *job);
+/* So many shapes are asked one by one, without the tree: about there it takes as long. */
+enum { RT__FEW = 10 * RT__LANES };
+
+typedef struct rt__column {
+    float x[RT__FEW], y[RT__FEW], z[RT__FEW];
+} rt__column;
+
+/* The shapes of a scene, column by column; spheres first, then boxes. */
+struct rt__table {
+    bool few; /* else there is nothing here, and rays ask the tree */
+    int spheres, count;
+    rt__column place, max, albedo; /* place is the center or min */
+    float kind[RT__FEW];           /* see rt__hits */
+    float radius[RT__FEW];         /* 0: a box */
+    float power[RT__FEW];          /* |O|^2 - R^2, the power of the point (0,0,0) */
+    float size[RT__FEW];           /* max(|O|, R), scaled by RT__DOUBT */
+    float largest;                 /* of the sizes */
+    bool near_light[RT__FEW];      /* a light is in this sphere, or near to it */
+    bool light_near;               /* to any of them */
+};
+
+#define RT__DOUBT 1.953125e-3f /* 2^-9, see rt__place */
+
+/* Few shapes, of numbers so moderate that squares are good floats, and no sphere so small
+ * that rt_leave's step is on the other side of it? */
+static bool rt__are_few(const rt_scene *scene, const rt_camera *camera)
+{
+    const float most = 1e7f;
+    bool good = scene->sphere_count + scene->box_count <= RT__FEW &&
+                rt__within(camera->position, -most, most);
+    for (int i = 0; good && i < scene->sphere_count; i++) {
+        const rt_sphere *s = &scene->spheres[i];
+        good = rt__within(s->center, -most, most) && s->radius <= most &&
+               s->radius >= 1e-3f * (1.0f + rt_length(s->center) + s->radius);
+    }
+    for (int i = 0; good && i < scene->box_count; i++)
+        good = rt__within(scene->boxes[i].min, -most, most) &&
+               rt__within(scene->boxes[i].max, -most, most);
+    for (int i = 0; good && i < scene->light_count; i++)
+        good = rt__within(scene->lights[i].position, -most, most);
+    return good;
+}
+
+/* Is the light in this sphere of the table, or so near to it that c + a + 2b is not
+ * surely above its doubt? */
+static bool rt__is_near(const rt_sphere *sphere, float size, const rt_light *light)
+{
+    const rt_dvec3 l = rt_to_double(light->position);
+    const rt_dvec3 f = rt_dsub(l, rt_to_double(sphere->center));
+    const double s = (double)size + (double)RT__DOUBT * sqrt(rt_ddot(l, l));
+    return rt_ddot(f, f) - (double)sphere->radius * (double)sphere->radius < 4.0 * s * s;
+}
+
+static void rt__put(rt__column *c, int i, rt_vec3 v)
+{
+    c->x[i] = v.x;
+    c->y[i] = v.y;
+    c->z[i] = v.z;
+}
+
+static void rt__set_table(rt__table *s, const rt_scene *scene)
+{
+    s->spheres = scene->sphere_count;
+    s->count = s->spheres + scene->box_count;
+    for (int i = 0; i < s->count; i++) {
+        const rt_sphere *sphere = i < s->spheres ? &scene->spheres[i] : NULL;
+        const rt_box *box = sphere ? NULL : &scene->boxes[i - s->spheres];
+        const rt_material *material = sphere ? &sphere->material : &box->material;
+        rt__put(&s->place, i, sphere ? sphere->center : box->min);
+        rt__put(&s->albedo, i, material->albedo);
+        s->kind[i] = material->mirror ? 1.0f : 0.0f;
+        if (box) {
+            rt__put(&s->max, i, box->max);
+            continue;
+        }
+        const rt_dvec3 o = rt_to_double(sphere->center);
+        const double oo = rt_ddot(o, o), r = (double)sphere->radius;
+        s->radius[i] = sphere->radius;
+        s->power[i] = (float)(oo - r * r);
+        s->size[i] = RT__DOUBT * (float)(oo > r * r ? sqrt(oo) : r) + 1e-10f;
+        s->largest = s->size[i] > s->largest ? s->size[i] : s->largest;
+        for (int k = 0; k < scene->light_count; k++)
+            s->near_light[i] =
+                s->near_light[i] || rt__is_near(sphere, s->size[i], &scene->lights[k]);
+        s->light_near = s->light_near || s->near_light[i];
+    }
+}
+
+static rt_status rt__run_packets(rt__job *job); /* the last section */
 #endif
 
 RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
@@ -2935,30 +3026,11 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 }
 
 /* ====================================================================================
- * Packets: 4, 8 or 16 rays at a time
+ * Lanes: what a core does with 4, 8 or 16 numbers at once
  *
- * A core of today adds 4, 8 or 16 floats with the one instruction that adds one. So here
- * are chapters 1 to 7 once more, for a packet of neighbouring pixels, each in its lane:
- *
- *     lane               0     1     2     3   ...
- *     pixel             0,0   1,0   2,0   3,0        neighbours in a row
- *     a                -2.0   0.5   1.0   3.0        rt__f: a float in each lane
- *     b                 1.0   1.0   1.0   1.0
- *     a + b            -1.0   1.5   2.0   4.0        one addition for all
- *     m = a < b         yes   yes   no    no         rt__m: a mask
- *     select(m, a, b)  -2.0   0.5   1.0   1.0        what takes the place of if
- *
- * All lanes go the same way: both sides of an if are computed, and each lane selects its
- * own. A comment before each function names those of the chapters that it repeats.
- *
- * Every lane gets the bits that the chapters give. Mostly that is plain: the same
- * operations in the same order. The sphere is the exception. It needs double, of which
- * only half as many fit, and most spheres are not hit. So all shapes are asked in float
- * first, with a bound for the error, and only the nearest is done as chapter 1 does it. If
- * it is nearer than any other can be, it is the nearest. If not, this ray goes alone
- * through the tree of chapter 8. Shadows likewise: yes, no, or in doubt alone.
- *
- * That is for few shapes. If they are many, all rays go through the tree alone.
+ * A core of today adds 4, 8 or 16 floats with the one instruction that adds one. The
+ * vectors are those of gcc and clang, for which + - * / are written as for numbers; the
+ * rest is in a table for each machine. One program has one number of lanes.
  * ==================================================================================== */
 #if RT__LANES > 1
 
@@ -2996,9 +3068,9 @@ typedef __mmask16 rt__m;
 #define rt__no(m) ((rt__m) ~(m))
 #define rt__bits(m) ((unsigned)(m))
 #define rt__select(m, a, b) ((rt__f)_mm512_mask_blend_ps(m, b, a))
-#define rt__min(a, b) ((rt__f)_mm512_maskz_min_ps(0xffff, a, b))
-#define rt__max(a, b) ((rt__f)_mm512_maskz_max_ps(0xffff, a, b))
-#define rt__sqrt(v) ((rt__f)_mm512_maskz_sqrt_ps(0xffff, v))
+#define rt__fmin(a, b) ((rt__f)_mm512_maskz_min_ps(0xffff, a, b))
+#define rt__fmax(a, b) ((rt__f)_mm512_maskz_max_ps(0xffff, a, b))
+#define rt__fsqrt(v) ((rt__f)_mm512_maskz_sqrt_ps(0xffff, v))
 #define rt__dsqrt(v) ((rt__d)_mm512_maskz_sqrt_pd(0xff, v))
 #define rt__fma(a, b, c) ((rt__f)_mm512_fmadd_ps(a, b, c))
 #define rt__fnma(a, b, c) ((rt__f)_mm512_fnmadd_ps(a, b, c))
@@ -3014,9 +3086,6 @@ typedef __mmask16 rt__m;
                                                          _mm512_loadu_ps(table))         \
                            : _mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff,       \
                                                       (__m512i)(at), table, 4)))
-typedef __m512i rt__bytes;
-#define rt__repeat(v) _mm512_maskz_broadcast_i32x4(0xffff, v)
-#define rt__shuffle(a, b) _mm512_maskz_shuffle_epi8(~(__mmask64)0, a, b)
 #else /* elsewhere -1 in each lane that is true, and 0 */
 typedef rt__i rt__m;
 #define rt__less(a, b) ((a) < (b))
@@ -3028,9 +3097,9 @@ typedef rt__i rt__m;
 #if RT__LANES == 8 /* AVX2 and FMA */
 #define rt__bits(m) ((unsigned)_mm256_movemask_ps((__m256)(m)))
 #define rt__select(m, a, b) ((rt__f)_mm256_blendv_ps(b, a, (__m256)(m)))
-#define rt__min(a, b) ((rt__f)_mm256_min_ps(a, b))
-#define rt__max(a, b) ((rt__f)_mm256_max_ps(a, b))
-#define rt__sqrt(v) ((rt__f)_mm256_sqrt_ps(v))
+#define rt__fmin(a, b) ((rt__f)_mm256_min_ps(a, b))
+#define rt__fmax(a, b) ((rt__f)_mm256_max_ps(a, b))
+#define rt__fsqrt(v) ((rt__f)_mm256_sqrt_ps(v))
 #define rt__dsqrt(v) ((rt__d)_mm256_sqrt_pd(v))
 #define rt__fma(a, b, c) ((rt__f)_mm256_fmadd_ps(a, b, c))
 #define rt__fnma(a, b, c) ((rt__f)_mm256_fnmadd_ps(a, b, c))
@@ -3041,9 +3110,6 @@ typedef rt__i rt__m;
     ((rt__f)((count) <= 8                                                                \
                  ? _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)(at))       \
                  : _mm256_i32gather_ps(table, (__m256i)(at), 4)))
-typedef __m256i rt__bytes;
-#define rt__repeat(v) _mm256_broadcastsi128_si256(v)
-#define rt__shuffle(a, b) _mm256_shuffle_epi8(a, b)
 #endif
 
 #if RT__LANES == 4
@@ -3051,11 +3117,11 @@ RT__INLINE rt__f rt__select(rt__m m, rt__f a, rt__f b)
 {
     return (rt__f)((m & (rt__i)a) | (~m & (rt__i)b));
 }
-RT__INLINE rt__f rt__min(rt__f a, rt__f b)
+RT__INLINE rt__f rt__fmin(rt__f a, rt__f b)
 {
     return rt__select(a < b, a, b);
 }
-RT__INLINE rt__f rt__max(rt__f a, rt__f b)
+RT__INLINE rt__f rt__fmax(rt__f a, rt__f b)
 {
     return rt__select(a > b, a, b);
 }
@@ -3067,7 +3133,7 @@ RT__INLINE rt__f rt__pick(const float *table, rt__i at, int count)
 }
 #ifdef __wasm_simd128__
 #define rt__bits(m) ((unsigned)wasm_i32x4_bitmask((v128_t)(m)))
-#define rt__sqrt(v) ((rt__f)wasm_f32x4_sqrt((v128_t)(v)))
+#define rt__fsqrt(v) ((rt__f)wasm_f32x4_sqrt((v128_t)(v)))
 #define rt__dsqrt(v) ((rt__d)wasm_f64x2_sqrt((v128_t)(v)))
 #define rt__fma(a, b, c) ((a) * (b) + (c)) /* rounded twice, which the bounds allow */
 #define rt__fnma(a, b, c) ((c) - (a) * (b))
@@ -3082,7 +3148,7 @@ RT__INLINE unsigned rt__bits(rt__m m)
     const rt__i weights = {1, 2, 4, 8};
     return (unsigned)vaddvq_s32((int32x4_t)(m & weights));
 }
-#define rt__sqrt(v) ((rt__f)vsqrtq_f32((float32x4_t)(v)))
+#define rt__fsqrt(v) ((rt__f)vsqrtq_f32((float32x4_t)(v)))
 #define rt__dsqrt(v) ((rt__d)vsqrtq_f64((float64x2_t)(v)))
 #define rt__fma(a, b, c) ((a) * (b) + (c))
 #define rt__fnma(a, b, c) ((c) - (a) * (b))
@@ -3096,7 +3162,7 @@ RT__INLINE unsigned rt__bits(rt__m m)
 #define rt__count(m) ((uint64_t)__builtin_popcount(rt__bits(m)))
 #define rt__iselect(m, a, b) ((rt__i)rt__select(m, (rt__f)(a), (rt__f)(b)))
 
-/* ---- chapter 0 ---------------------------------------------------------------------- */
+/* ---- chapter 0 ------------------------------------------------------------------- */
 
 typedef struct rt__f3 {
     rt__f x, y, z;
@@ -3167,6 +3233,14 @@ RT__INLINE rt__d rt__ddot(rt__d3 a, rt__d3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+RT__INLINE rt__d3 rt__dsub(rt__d3 a, rt__d3 b)
+{
+    a.x = a.x - b.x;
+    a.y = a.y - b.y;
+    a.z = a.z - b.z;
+    return a;
+}
+
 RT__INLINE rt__d3 rt__dmad(rt__d3 a, rt__d k, rt__d3 b)
 {
     a.x = a.x + k * b.x;
@@ -3203,28 +3277,33 @@ RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
                    rt__join(two[0].z, two[1].z));
 }
 
-/* ---- the shapes, and where rays start ----------------------------------------------- */
-
-/* So many shapes are asked one by one, without the tree: about there it takes as long. */
-enum { RT__FEW = 10 * RT__LANES };
-
-typedef struct rt__column {
-    float x[RT__FEW], y[RT__FEW], z[RT__FEW];
-} rt__column;
-
-/* The shapes of a scene, column by column; spheres first, then boxes. */
-struct rt__table {
-    bool few; /* else there is nothing here, and rays ask the tree */
-    int spheres, count;
-    rt__column place, max, albedo; /* place is the center or min */
-    float kind[RT__FEW];           /* see rt__hits */
-    float radius[RT__FEW];         /* 0: a box */
-    float power[RT__FEW];          /* |O|^2 - R^2, the power of the point (0,0,0) */
-    float size[RT__FEW];           /* max(|O|, R), scaled by RT__DOUBT */
-    float largest;                 /* of the sizes */
-    bool near_light[RT__FEW];      /* a light is in this sphere, or near to it */
-    bool light_near;               /* to any of them */
-};
+/* ====================================================================================
+ * Packets: 4, 8 or 16 rays at a time
+ *
+ * A core of today adds 4, 8 or 16 floats with the one instruction that adds one. So here
+ * are chapters 1 to 7 once more, for a packet of neighbouring pixels, each in its lane:
+ *
+ *     lane               0     1     2     3   ...
+ *     pixel             0,0   1,0   2,0   3,0        neighbours in a row
+ *     a                -2.0   0.5   1.0   3.0        rt__f: a float in each lane
+ *     b                 1.0   1.0   1.0   1.0
+ *     a + b            -1.0   1.5   2.0   4.0        one addition for all
+ *     m = a < b         yes   yes   no    no         rt__m: a mask
+ *     select(m, a, b)  -2.0   0.5   1.0   1.0        what takes the place of if
+ *
+ * All lanes go the same way: both sides of an if are computed, and each lane selects its
+ * own. A comment before each function names those of the chapters that it repeats.
+ *
+ * Every lane gets the bits that the chapters give. Mostly that is plain: the same
+ * operations in the same order. The sphere is the exception. It needs double, of which
+ * only half as many fit, and most spheres are not hit. So all shapes are asked in float
+ * first, with a bound for the error, and only the nearest is done as chapter 1 does it.
+ * If it is nearer than any other can be, it is the nearest. If not, this ray goes alone
+ * through the tree of chapter 8. Shadows likewise: yes, no, or in doubt alone.
+ *
+ * That is for few shapes. If they are many, all rays go through the tree alone.
+ * ==================================================================================== */
+/* ---- the shapes, and where rays start -------------------------------------------- */
 
 RT__INLINE rt__f3 rt__vpick(const rt__column *c, rt__i at, int count)
 {
@@ -3243,17 +3322,16 @@ RT__INLINE rt__f3 rt__row(const rt__column *c, int i)
  *     c = |C - O|^2 - R^2 = <C,C> - <O,2C> + (|O|^2 - R^2).
  *
  * That is a small difference of large numbers, in float but for the last term, which was
- * taken in double. With s = |C| + max(|O|, R) none of them is larger than s^2, and each of
- * 9 roundings is 2^-24 of it at most. So, with some room for what comes below,
+ * taken in double. With s = |C| + max(|O|, R) none of them is larger than s^2, and each
+ * of 9 roundings is 2^-24 of it at most. So, with some room for what comes below,
  *
  *     |error of c|  <  doubt = 2^-18 s^2,        low = c - doubt,   high = c + doubt. */
-#define RT__DOUBT 1.953125e-3f /* 2^-9: doubt is the square of RT__DOUBT s */
 
 typedef struct rt__place {
     rt__f3 origin; /* C */
     rt__f size;    /* |C|, scaled by RT__DOUBT */
-    rt__i left;    /* the number n of the sphere that the ray leaves on its outside, or ~n
-                      on its inside; or RT__NOWHERE. It is met at t = 0, which is no hit */
+    rt__i left;    /* the number n of the sphere that the ray leaves on its outside, ~n on
+                      its inside, or RT__NOWHERE. It is met at t = 0, which is no hit */
     rt__f low[RT__FEW], high[RT__FEW];
     bool near[RT__FEW]; /* a ray may start in this sphere, or a light is in or near it */
     bool any_near;
@@ -3268,7 +3346,7 @@ RT__INLINE void rt__start_at(const rt__table *s, rt__place *p, rt__f3 origin, rt
     rt__i here = left & 0;
     rt__m close = {0};
     p->origin = origin;
-    p->size = rt__sqrt(oo) * RT__DOUBT;
+    p->size = rt__fsqrt(oo) * RT__DOUBT;
     p->left = left;
     for (int i = 0; i < s->spheres; i++, here += 1) {
         const rt__f3 o = rt__row(&s->place, i);
@@ -3285,7 +3363,7 @@ RT__INLINE void rt__start_at(const rt__table *s, rt__place *p, rt__f3 origin, rt
         p->near[i] = s->near_light[i] || rt__any(rt__less(p->low[i] * 3.0f, p->high[i]));
 }
 
-/* ---- chapters 1 to 3: the nearest hit ----------------------------------------------- */
+/* ---- chapters 1 to 3: the nearest hit -------------------------------------------- */
 
 /* What rt_hit says, for a packet, with what chapter 7 wants to know of the material. */
 typedef struct rt__hits {
@@ -3294,8 +3372,8 @@ typedef struct rt__hits {
     rt__f3 point, normal, albedo;
 } rt__hits;
 
-/* The nearest shape so far, by key = -a t: the larger, the nearer. That of shape number at
- * is best or less; that of every other is others or less. */
+/* The nearest shape so far, by key = -a t: the larger, the nearer. That of shape number
+ * at is best or less; that of every other is others or less. */
 typedef struct rt__nearest {
     rt__f best, others;
     rt__i at;
@@ -3307,13 +3385,13 @@ typedef struct rt__nearest {
 RT__INLINE void rt__offer(rt__nearest *n, rt__f key, rt__i at)
 {
     const rt__m nearer = rt__less(n->best, key);
-    n->others = rt__max(rt__min(n->best, key), n->others);
-    n->best = rt__max(key, n->best);
+    n->others = rt__fmax(rt__fmin(n->best, key), n->others);
+    n->best = rt__fmax(key, n->best);
     n->at = rt__iselect(nearer, at, n->at);
 }
 
-/* b = <C - O, u> = <C,u> - <O,u>, of which the first is the same for all spheres. Wrong by
- * 7 roundings of s |u|, less than 2^-21 s |u|. */
+/* b = <C - O, u> = <C,u> - <O,u>, of which the first is the same for all spheres. Wrong
+ * by 7 roundings of s |u|, less than 2^-21 s |u|. */
 RT__INLINE rt__f rt__b(const rt__table *s, int i, rt__f3 u, rt__f cu)
 {
     const rt__f3 o = rt__row(&s->place, i);
@@ -3328,13 +3406,13 @@ RT__INLINE rt__f rt__sphere_key(const rt__table *s, const rt__place *p, int i, r
                                 rt__f b, rt__f a)
 {
     const rt__f zero = rt__all(0.0f), low = p->low[i];
-    const rt__f key = b + rt__sqrt(rt__fnma(a, low, b * rt__min(b, zero)));
+    const rt__f key = b + rt__fsqrt(rt__fnma(a, low, b * rt__fmin(b, zero)));
     if (__builtin_expect(!p->any_near, 1) || !p->near[i])
         return key;
     /* Inside it is the larger root; too near to the surface to tell, t may be 0. */
     const rt__f size = p->size + s->size[i], doubt = size * size;
     const rt__m inside = rt__less(low, -3.0f * doubt) | rt__same(p->left, ~here);
-    const rt__f root = rt__sqrt(rt__max(rt__fnma(a, low + 2.0f * doubt, b * b), zero));
+    const rt__f root = rt__fsqrt(rt__fmax(rt__fnma(a, low + 2.0f * doubt, b * b), zero));
     return rt__select(inside, b - root, rt__select(rt__less(low, doubt), zero, key));
 }
 
@@ -3359,10 +3437,10 @@ RT__INLINE void rt__slab(const rt__table *s, int i, const rt__slab_rays *r, rt__
 {
     const rt__f3 low = rt__mul(rt__sub(rt__row(&s->place, i), r->origin), r->inverse);
     const rt__f3 high = rt__mul(rt__sub(rt__row(&s->max, i), r->origin), r->inverse);
-    *t_in = rt__max(rt__max(rt__min(low.x, high.x), rt__min(low.y, high.y)),
-                    rt__min(low.z, high.z));
-    *t_out = rt__min(rt__min(rt__max(low.x, high.x), rt__max(low.y, high.y)),
-                     rt__max(low.z, high.z));
+    *t_in = rt__fmax(rt__fmax(rt__fmin(low.x, high.x), rt__fmin(low.y, high.y)),
+                     rt__fmin(low.z, high.z));
+    *t_out = rt__fmin(rt__fmin(rt__fmax(low.x, high.x), rt__fmax(low.y, high.y)),
+                      rt__fmax(low.z, high.z));
     *doubt = (rt__abs(*t_in) + rt__abs(*t_out)) * (4.0f * FLT_EPSILON);
 }
 
@@ -3400,8 +3478,8 @@ RT__INLINE rt__f rt__finish_spheres(const rt__place *p, rt__f3 u, rt__f3 center,
     rt__d t[2];
     for (int h = 0; h < 2; h++) {
         const rt__d3 v = rt__vwiden(u, h), o = rt__vwiden(center, h);
-        const rt__d r = rt__widen(radius, h), minus_one = r - r - 1.0;
-        const rt__d3 f = rt__dmad(rt__vwiden(p->origin, h), minus_one, o);
+        const rt__d3 f = rt__dsub(rt__vwiden(p->origin, h), o);
+        const rt__d r = rt__widen(radius, h);
         const rt__d a = rt__ddot(v, v), b = rt__ddot(f, v), c = rt__ddot(f, f) - r * r;
         const rt__d root = rt__dsqrt(b * b - a * c);
         rt__d key = b + root;
@@ -3432,8 +3510,8 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, rt__f low, rt__f high, rt
     const rt__f zero = rt__all(0.0f), all = rt__all(FLT_MAX);
     const rt__i here = (rt__i)zero + axis;
     const rt__m parallel = rt__no(rt__less(zero, rt__abs(u))), up = rt__less(zero, u);
-    const rt__f t_low = rt__max(rt__min((low - o) / u, all), -all);
-    const rt__f t_high = rt__max(rt__min((high - o) / u, all), -all);
+    const rt__f t_low = rt__fmax(rt__fmin((low - o) / u, all), -all);
+    const rt__f t_high = rt__fmax(rt__fmin((high - o) / u, all), -all);
     const rt__f t_in = rt__select(parallel, -all, rt__select(up, t_low, t_high));
     const rt__f t_out = rt__select(parallel, all, rt__select(up, t_high, t_low));
     const rt__m later = rt__less(cuts->t_in, t_in), sooner = rt__less(t_out, cuts->t_out);
@@ -3519,8 +3597,8 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
      * more, a and t of this one by some; in all by less than 2^-19 s |u|. */
     const rt__f slack = (p->size + s->largest) * (1.9073486328125e-6f / RT__DOUBT);
     const rt__f limit = n.others + slack * (0.5f * a + 0.5f); /* not less than |u| */
-    /* Left to chapter 1: t = 0; from afar, where it takes another way; and so flat that it
-     * is not sure which side the ray comes from. */
+    /* Left to chapter 1: t = 0; from afar, where it takes another way; and so flat that
+     * it is not sure which side the ray comes from. */
     const rt__m sphere = rt__less(zero, r);
     const rt__m good = sphere & rt__less(rt__all(1e-30f), t) & rt__less(limit, a * -t) &
                        rt__less(t * t * a, r * r * 8e9f) &
@@ -3535,7 +3613,7 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
         rt__find_in_tree(job->scene, &p->origin, &u, rt__bits(ask), hits);
 }
 
-/* ---- chapter 8: alone through the tree ---------------------------------------------- */
+/* ---- chapter 8: alone through the tree ------------------------------------------- */
 
 #if RT__LANES == 16 /* a node has eight boxes */
 typedef float rt__boxes __attribute__((vector_size(32)));
@@ -3544,8 +3622,8 @@ typedef float rt__boxes __attribute__((vector_size(32)));
 #define rt__bbits(m) ((unsigned)_mm256_movemask_ps((__m256)(m)))
 #else
 typedef rt__f rt__boxes;
-#define rt__bmin(a, b) rt__min(a, b)
-#define rt__bmax(a, b) rt__max(a, b)
+#define rt__bmin(a, b) rt__fmin(a, b)
+#define rt__bmax(a, b) rt__fmax(a, b)
 #define rt__bbits(m) rt__bits(m)
 #endif
 
@@ -3593,6 +3671,13 @@ RT__INLINE void rt__set_lane(rt__f3 *v, int lane, rt_vec3 to)
     v->z[lane] = to.z;
 }
 
+/* rt__search for one lane; number of a shape, or -1. */
+static __attribute__((noinline)) int rt__search_boxes(const rt_scene *scene,
+                                                      const rt_ray *ray, bool any)
+{
+    return rt__search(scene, ray, any ? 1.0f : FLT_MAX, any, rt__enter_boxes);
+}
+
 /* rt_intersect, one ray after the other: for many shapes, and for lanes in doubt. A new
  * kind of shape that is rare would be asked here, too. */
 static __attribute__((noinline)) void rt__find_in_tree(const rt_scene *scene,
@@ -3606,7 +3691,7 @@ static __attribute__((noinline)) void rt__find_in_tree(const rt_scene *scene,
         rt_hit hit;
         ray.origin = rt__lane(origin, lane);
         ray.direction = rt__lane(direction, lane);
-        const int number = rt__search(scene, &ray, FLT_MAX, false, rt__enter_boxes);
+        const int number = rt__search_boxes(scene, &ray, false);
         hits->kind[lane] = -1.0f;
         if (number < 0 || !rt__hit_shape(scene, number, &ray, 0.0, &hit))
             continue;
@@ -3630,22 +3715,22 @@ static __attribute__((noinline)) rt__m rt__shade_in_tree(const rt_scene *scene,
         rt_ray ray;
         ray.origin = rt__lane(origin, lane);
         ray.direction = rt__lane(direction, lane);
-        if (rt__search(scene, &ray, 1.0f, true, rt__enter_boxes) >= 0)
+        if (rt__search_boxes(scene, &ray, true) >= 0)
             blocked[lane] = 1.0f;
     }
     return rt__less(rt__all(0.0f), blocked);
 }
 
-/* ---- chapter 4: shadows ------------------------------------------------------------- */
+/* ---- chapter 4: shadows ---------------------------------------------------------- */
 
 /* Who does not see the light at t = 1? */
 typedef struct rt__shade {
     rt__m sure, may;
 } rt__shade;
 
-/* A sphere that a ray may start in, or end in. f(t) = a t^2 + 2 b t + c is negative inside
- * it, f(0) = c, f(1) = a + 2b + c: if one end is inside and the other is not, then the way
- * crosses the surface. If both are outside, it is as in rt__shade_all. */
+/* A sphere that a ray may start in, or end in. f(t) = a t^2 + 2 b t + c is negative
+ * inside it, f(0) = c, f(1) = a + 2b + c: if one end is inside and the other is not, then
+ * the way crosses the surface. If both are outside, it is as in rt__shade_all. */
 RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt__f b,
                                rt__f a, rt__shade *shade)
 {
@@ -3703,8 +3788,8 @@ RT__INLINE rt__shade rt__shade_all(const rt__table *s, const rt__place *p, rt__f
 /* rt_leave, where <N,direction> < 0 in the lanes below. */
 RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__m below)
 {
-    const rt__f size = rt__max(rt__max(rt__all(1.0f), rt__abs(point.x)),
-                               rt__max(rt__abs(point.y), rt__abs(point.z)));
+    const rt__f size = rt__fmax(rt__fmax(rt__all(1.0f), rt__abs(point.x)),
+                                rt__fmax(rt__abs(point.y), rt__abs(point.z)));
     const rt__f offset = size * (8.0f * FLT_EPSILON);
     return rt__add(point, rt__scale(normal, rt__select(below, -offset, offset)));
 }
@@ -3742,7 +3827,7 @@ RT__INLINE rt__f3 rt__light(const rt__job *job, const rt__place *p, rt__m lanes,
         const rt__f dd = rt__dot(to_light, to_light);
         const rt__m counts = lit & rt__no(shade.sure) & rt__less(rt__all(1e-20f), dd) &
                              rt__no(rt__less(rt__all(FLT_MAX), dd));
-        const rt__f cosine = toward / rt__sqrt(dd);
+        const rt__f cosine = toward / rt__fsqrt(dd);
         const rt__f3 light =
             rt__scale(rt__mul(hits->albedo, rt__vall(scene->lights[i].intensity)),
                       cosine / (3.14159265359f * dd));
@@ -3751,7 +3836,7 @@ RT__INLINE rt__f3 rt__light(const rt__job *job, const rt__place *p, rt__m lanes,
     return sum;
 }
 
-/* ---- chapters 7 and 9: random numbers, directions ----------------------------------- */
+/* ---- chapters 7 and 9: random numbers, directions -------------------------------- */
 
 /* rt_hash. */
 RT__INLINE rt__u rt__mix(rt__u v)
@@ -3764,21 +3849,11 @@ RT__INLINE rt__u rt__mix(rt__u v)
 /* rt__reverse. */
 RT__INLINE rt__u rt__backwards(rt__u v)
 {
-#ifdef RT__X86 /* the bytes in reverse order, and a table for each half of a byte */
-    const __m128i order = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
-    const __m128i table = _mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800);
-    const rt__u w = (rt__u)rt__shuffle((rt__bytes)v, rt__repeat(order));
-    const rt__bytes low = (rt__bytes)(w & 0x0f0f0f0fu),
-                    high = (rt__bytes)(w >> 4 & 0x0f0f0f0fu);
-    return (rt__u)rt__shuffle(rt__repeat(table), low) << 4 |
-           (rt__u)rt__shuffle(rt__repeat(table), high);
-#else
     v = v << 16 | v >> 16;
     v = (v & 0x00ff00ffu) << 8 | (v >> 8 & 0x00ff00ffu);
     v = (v & 0x0f0f0f0fu) << 4 | (v >> 4 & 0x0f0f0f0fu);
     v = (v & 0x33333333u) << 2 | (v >> 2 & 0x33333333u);
     return (v & 0x55555555u) << 1 | (v >> 1 & 0x55555555u);
-#endif
 }
 
 /* rt__scramble. */
@@ -3848,12 +3923,12 @@ RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
     const rt__f3 a = rt__vec(1.0f + sign * n.x * n.x * k, sign * m, -sign * n.x);
     const rt__f3 b = rt__vec(m, sign + n.y * n.y * k, -n.y);
 
-    const rt__f radius = rt__sqrt(1.0f - r2);
+    const rt__f radius = rt__fsqrt(1.0f - r2);
     return rt__add(rt__add(rt__scale(a, cosine * radius), rt__scale(b, sine * radius)),
-                   rt__scale(n, rt__sqrt(r2)));
+                   rt__scale(n, rt__fsqrt(r2)));
 }
 
-/* ---- the whole path ----------------------------------------------------------------- */
+/* ---- the whole path -------------------------------------------------------------- */
 
 /* A packet on its way. A lane whose path has ended stays until the last one ends. */
 typedef struct rt__packet {
@@ -3915,13 +3990,13 @@ RT__INLINE void rt__bounce(const rt__job *job, rt__packet *p, int bounce)
     const rt__f3 reflected = rt__sub(u, rt__scale(n, 2.0f * un));
     p->direction = rt__vselect(mirror, reflected, rt__cosine(n, r1, r2));
     const rt__m lossless =
-        mirror & rt__no(rt__less(zero, rt__max(rho.x, rt__max(rho.y, rho.z))));
+        mirror & rt__no(rt__less(zero, rt__fmax(rho.x, rt__fmax(rho.y, rho.z))));
     p->throughput = rt__vselect(lossless, p->throughput, rt__mul(p->throughput, rho));
     const rt__f most =
-        rt__max(p->throughput.x, rt__max(p->throughput.y, p->throughput.z));
+        rt__fmax(p->throughput.x, rt__fmax(p->throughput.y, p->throughput.z));
     p->lanes &= rt__no(rt__less(most, rt__all(FLT_MIN))); /* rt__is_spent */
     if (job->options.bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
-        const rt__f chance = rt__min(most, rt__all(0.95f)); /* rt__chance */
+        const rt__f chance = rt__fmin(most, rt__all(0.95f)); /* rt__chance */
         rt__draw(&p->numbers, &r1, &r2);
         p->numbers.dimension += 2u;
         p->lanes &= rt__less(r1, chance);
@@ -3979,6 +4054,7 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
         column += over & -width;
         row -= over;
     }
+    const rt__m none = {0};
     rt__numbers *numbers = &p->numbers;
     numbers->sobol = sobol;
     numbers->key =
@@ -4003,8 +4079,10 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     p->lanes = rt__less(zero, __builtin_convertvector(last - first - lane, rt__f));
     p->sum = rt__vec(zero, zero, zero);
     p->throughput = rt__vec(one, one, one);
-    rt__start_at(job->table, &p->place, rt__vall(film->position),
-                 (rt__i)zero + RT__NOWHERE);
+    p->hits.point = rt__vall(film->position);
+    p->hits.normal = p->sum;
+    p->hits.left = (rt__i)zero + RT__NOWHERE;
+    rt__set_out(job, p, none);
 }
 
 /* rt__step_pixels with rt__pixel. */
@@ -4023,73 +4101,6 @@ static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int 
                 values[i++ - first] = rt__lane(&packets[k].sum, lane);
     }
     return rays;
-}
-
-/* ---- which scenes ------------------------------------------------------------------- */
-
-/* Few shapes, of numbers so moderate that squares are good floats, and no sphere so small
- * that rt_leave's step is on the other side of it? */
-static bool rt__are_few(const rt_scene *scene, const rt_camera *camera)
-{
-    const float most = 1e7f;
-    bool good = scene->sphere_count + scene->box_count <= RT__FEW &&
-                rt__within(camera->position, -most, most);
-    for (int i = 0; good && i < scene->sphere_count; i++) {
-        const rt_sphere *s = &scene->spheres[i];
-        good = rt__within(s->center, -most, most) && s->radius <= most &&
-               s->radius >= 1e-3f * (1.0f + rt_length(s->center) + s->radius);
-    }
-    for (int i = 0; good && i < scene->box_count; i++)
-        good = rt__within(scene->boxes[i].min, -most, most) &&
-               rt__within(scene->boxes[i].max, -most, most);
-    for (int i = 0; good && i < scene->light_count; i++)
-        good = rt__within(scene->lights[i].position, -most, most);
-    return good;
-}
-
-/* Is the light in this sphere of the table, or so near to it that c + a + 2b is not surely
- * above its doubt? */
-static bool rt__is_near(const rt_sphere *sphere, float size, const rt_light *light)
-{
-    const rt_dvec3 l = rt_to_double(light->position);
-    const rt_dvec3 f = rt_dsub(l, rt_to_double(sphere->center));
-    const double s = (double)size + (double)RT__DOUBT * sqrt(rt_ddot(l, l));
-    return rt_ddot(f, f) - (double)sphere->radius * (double)sphere->radius < 4.0 * s * s;
-}
-
-static void rt__put(rt__column *c, int i, rt_vec3 v)
-{
-    c->x[i] = v.x;
-    c->y[i] = v.y;
-    c->z[i] = v.z;
-}
-
-static void rt__set_table(rt__table *s, const rt_scene *scene)
-{
-    s->spheres = scene->sphere_count;
-    s->count = s->spheres + scene->box_count;
-    for (int i = 0; i < s->count; i++) {
-        const rt_sphere *sphere = i < s->spheres ? &scene->spheres[i] : NULL;
-        const rt_box *box = sphere ? NULL : &scene->boxes[i - s->spheres];
-        const rt_material *material = sphere ? &sphere->material : &box->material;
-        rt__put(&s->place, i, sphere ? sphere->center : box->min);
-        rt__put(&s->albedo, i, material->albedo);
-        s->kind[i] = material->mirror ? 1.0f : 0.0f;
-        if (box) {
-            rt__put(&s->max, i, box->max);
-            continue;
-        }
-        const rt_dvec3 o = rt_to_double(sphere->center);
-        const double oo = rt_ddot(o, o), r = (double)sphere->radius;
-        s->radius[i] = sphere->radius;
-        s->power[i] = (float)(oo - r * r);
-        s->size[i] = RT__DOUBT * (float)(oo > r * r ? sqrt(oo) : r) + 1e-10f;
-        s->largest = s->size[i] > s->largest ? s->size[i] : s->largest;
-        for (int k = 0; k < scene->light_count; k++)
-            s->near_light[i] =
-                s->near_light[i] || rt__is_near(sphere, s->size[i], &scene->lights[k]);
-        s->light_near = s->light_near || s->near_light[i];
-    }
 }
 
 /* rt__run, in packets. The scene must have its tree. */
