@@ -1,5 +1,6 @@
 /* Measures rt.h and prints rows, values separated by tabs, for tests/bench/run to put into tables.
  *
+ *     bench lanes                 how many rays at a time
  *     bench speed LANES THREADS   millions of rays per second, rays per sample, mean colour
  *     bench live BOUNCES THREADS  pictures of 640 x 480 per second, 1 sample; Mrays/s
  *     bench picture THREADS       seconds for 640 x 480, 64 samples, 5 bounces; Mrays/s
@@ -153,7 +154,9 @@ static void growth(int lanes, bool tree)
     const rt_options options = {
         .samples = tree ? 4 : 1, .bounces = 5, .threads = 1, .lanes = lanes};
     by_hand = tree ? NULL : ask_every_shape;
-    for (int count = 10; count <= (tree ? 100000 : 1000); count *= 10) {
+    const int counts[] = {10, 40, 60, 80, 150, 300, 1000, 10000, 100000};
+    for (int k = 0; k < (tree ? 9 : 7); k++) {
+        const int count = counts[k];
         rt_sphere *spheres = many_spheres(count);
         rt_scene scene = {.spheres = spheres,
                           .sphere_count = count + 5,
@@ -255,6 +258,8 @@ int main(int argc, char **argv)
     const int a = argc > 2 ? atoi(argv[2]) : 0, b = argc > 3 ? atoi(argv[3]) : 0;
     if (strcmp(what, "speed") == 0)
         speed(a, b);
+    else if (strcmp(what, "lanes") == 0)
+        printf("%d\n", rt_lane_count(0));
     else if (strcmp(what, "live") == 0)
         live(a, b);
     else if (strcmp(what, "picture") == 0)

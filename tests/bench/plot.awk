@@ -36,7 +36,8 @@ END {
     print "</g>"
     for (v in ticks) {
         stroke(px(v), top, px(v), bottom, "#e5e5e5")
-        words(px(v), bottom + 18, "middle", "#444444", v + 0)
+        if (log10(v) == int(log10(v)) || x0 + 3 > x1) # not all, if they are many
+            words(px(v), bottom + 18, "middle", "#444444", v + 0)
     }
     for (e = -4; e <= 7; e++)
         for (m = 1; m <= 5; m = m == 2 ? 5 : m + m % 2) { # 1, 2, 5

@@ -83,7 +83,7 @@ END {
     }
     if (topic == "flags") {
         columns = 3
-        line("compiler's flags", "Mrays/s", "against -march=native")
+        line("compiler's flags", "Mrays/s", "against make")
         for (i = 1; i <= count["flags"]; i++) {
             label = order["flags", i]
             line(label, show(best["flags", label]),
