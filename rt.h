@@ -2905,7 +2905,7 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
 
 #if RT__LANES > 1
 /* So many shapes are asked one by one, without the tree: about there it takes as long. */
-enum { RT__FEW = 10 * RT__LANES };
+enum { RT__FEW = 40 * RT__LANES };
 
 typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
@@ -3325,14 +3325,14 @@ RT__INLINE rt__f3 rt__row(const rt__column *c, int i)
  * taken in double. With s = |C| + max(|O|, R) none of them is larger than s^2, and each
  * of 9 roundings is 2^-24 of it at most. So, with some room for what comes below,
  *
- *     |error of c|  <  doubt = 2^-18 s^2,        low = c - doubt,   high = c + doubt. */
+ *     |error of c|  <  doubt = 2^-18 s^2,        low = c - doubt. */
 
 typedef struct rt__place {
     rt__f3 origin; /* C */
     rt__f size;    /* |C|, scaled by RT__DOUBT */
     rt__i left;    /* the number n of the sphere that the ray leaves on its outside, ~n on
                       its inside, or RT__NOWHERE. It is met at t = 0, which is no hit */
-    rt__f low[RT__FEW], high[RT__FEW];
+    rt__f low[RT__FEW]; /* of each sphere c, at least */
     bool near[RT__FEW]; /* a ray may start in this sphere, or a light is in or near it */
     bool any_near;
 } rt__place;
@@ -3356,11 +3356,12 @@ RT__INLINE void rt__start_at(const rt__table *s, rt__place *p, rt__f3 origin, rt
         const rt__f low = rt__select(rt__same(left, here), rt__all(1e30f), c - doubt);
         close |= rt__less(low, doubt);
         p->low[i] = low;
-        p->high[i] = c + doubt;
     }
     p->any_near = rt__any(close) || s->light_near;
-    for (int i = 0; p->any_near && i < s->spheres; i++)
-        p->near[i] = s->near_light[i] || rt__any(rt__less(p->low[i] * 3.0f, p->high[i]));
+    for (int i = 0; p->any_near && i < s->spheres; i++) {
+        const rt__f size = p->size + s->size[i];
+        p->near[i] = s->near_light[i] || rt__any(rt__less(p->low[i], size * size));
+    }
 }
 
 /* ---- chapters 1 to 3: the nearest hit -------------------------------------------- */
@@ -3738,7 +3739,7 @@ RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt
     const rt__f size = p->size + s->size[i], doubt = size * size, twice = doubt + doubt;
     const rt__i here = (rt__i)zero + i;
     const rt__m left = rt__same(p->left, here);
-    const rt__f c = p->high[i] - doubt, end = rt__fma(b, rt__all(2.0f), a) + c;
+    const rt__f c = p->low[i] + doubt, end = rt__fma(b, rt__all(2.0f), a) + c;
     const rt__f start = rt__select(rt__same(p->left, ~here), -2.0f * twice, c);
     const rt__m unclear = rt__less(rt__abs(start), twice) | rt__less(rt__abs(end), twice);
     const rt__m from = rt__less(start, zero), to = rt__less(end, zero);
@@ -3765,8 +3766,10 @@ RT__INLINE rt__shade rt__shade_all(const rt__table *s, const rt__place *p, rt__f
             continue;
         }
         const rt__m ahead = rt__and_less(rt__less(b, zero), minus_a, b);
-        shade.may |= rt__and_less(ahead, p->low[i], bb_over_a);
-        shade.sure |= rt__and_less(ahead, p->high[i], bb_over_a);
+        const rt__f size = p->size + s->size[i], low = p->low[i];
+        const rt__f high = rt__fma(size + size, size, low); /* c + doubt */
+        shade.may |= rt__and_less(ahead, low, bb_over_a);
+        shade.sure |= rt__and_less(ahead, high, bb_over_a);
     }
     if (s->spheres == s->count)
         return shade;
