@@ -3620,12 +3620,12 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
 typedef float rt__boxes __attribute__((vector_size(32)));
 #define rt__bmin(a, b) ((rt__boxes)_mm256_min_ps(a, b))
 #define rt__bmax(a, b) ((rt__boxes)_mm256_max_ps(a, b))
-#define rt__bbits(m) ((unsigned)_mm256_movemask_ps((__m256)(m)))
+#define rt__bat_most(a, b) ((unsigned)_mm256_cmp_ps_mask(a, b, _CMP_LE_OQ))
 #else
 typedef rt__f rt__boxes;
 #define rt__bmin(a, b) rt__fmin(a, b)
 #define rt__bmax(a, b) rt__fmax(a, b)
-#define rt__bbits(m) rt__bits(m)
+#define rt__bat_most(a, b) rt__bits((a) <= (b))
 #endif
 
 /* rt__trim. */
@@ -3655,7 +3655,7 @@ RT__INLINE unsigned rt__enter_boxes(const rt_bvh_node *node, const rt_ray *ray,
         rt__trim_boxes(node->min_z + k, node->max_z + k, o.z, inverse.z, &t_in, &t_out);
         t_in = t_in * (1.0f - 4.0f * FLT_EPSILON);
         memcpy(t + k, &t_in, sizeof t_in);
-        result |= rt__bbits(t_in <= t_out) << k;
+        result |= rt__bat_most(t_in, t_out) << k;
     }
     return result & ((1u << node->count) - 1u);
 }
