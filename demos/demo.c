@@ -707,33 +707,31 @@ static int render_and_save(run *r)
     return !good ? FAILED : interrupted ? INTERRUPTED : DONE;
 }
 
-/* What the machine lacks of that for which the demo was compiled, or NULL. It has to be
- * asked first: nothing that comes later can be relied on. */
-static const char *lacking(void)
-{
 #if defined(__x86_64__) && defined(__GNUC__)
+/* Compiled for more than this machine has (-march=native, and then copied)? Asked before
+ * main, in plain x86-64, as main itself may use what is not there. */
+__attribute__((constructor, target("arch=x86-64"))) static void check_machine(void)
+{
+    const char *lacks = NULL;
     __builtin_cpu_init();
 #ifdef __AVX2__
-    if (!__builtin_cpu_supports("avx2"))
-        return "AVX2";
+    lacks = __builtin_cpu_supports("avx2") ? lacks : "AVX2";
 #endif
 #ifdef __AVX512F__
-    if (!__builtin_cpu_supports("avx512f"))
-        return "AVX-512";
+    lacks = __builtin_cpu_supports("avx512f") ? lacks : "AVX-512";
 #endif
-#endif
-    return NULL;
+    if (lacks) {
+        fprintf(stderr,
+                "compiled for a machine with %s, which this one lacks: make -B "
+                "MACHINE= makes a program for any\n",
+                lacks);
+        exit(FAILED);
+    }
 }
+#endif
 
 int demo_main(int argc, char **argv, const demo *d)
 {
-    if (lacking()) {
-        fprintf(stderr,
-                "%s: compiled for a machine with %s, which this one lacks: make -B "
-                "MACHINE= %s\n",
-                d->name, lacking(), d->name);
-        return FAILED;
-    }
     char out[64];
     struct stat info;
     const bool at_the_top = stat("build", &info) == 0 && S_ISDIR(info.st_mode);
