@@ -2501,6 +2501,7 @@ typedef struct rt__team {
     int threads, chunk, chunks;    /* there are so many chunks of so many pixels */
     rt__mutex *writing;            /* each thread locks its own while it writes pixels */
     double start, asked, interval; /* progress was asked then; again after so long */
+    double looked;                 /* at the clock */
     double begun, wanted;          /* the image had so many samples, and gets so many */
     int first_sample, first_pixel; /* what the image lacks first */
     int end;                       /* tasks go up to this sample, not included */
@@ -2610,7 +2611,9 @@ static inline void rt__look_up(rt_watch *watch)
     const double now = rt__seconds();
     const bool over = o->seconds > 0.0f && now - team->start >= (double)o->seconds;
     bool go_on = true;
-    watch->ticks = team->job->ticks;
+    /* not so often while all goes fast: some clocks are slow */
+    watch->ticks = team->job->ticks * (now - team->looked < 1e-4 ? 16 : 1);
+    team->looked = now;
     if (o->progress && !team->cancelled && now - team->asked >= team->interval) {
         for (int k = 1; k < team->threads; k++)
             rt__lock(&team->writing[k]);
@@ -2830,12 +2833,16 @@ static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *r
 
 RTDEF int rt_lane_count(int wanted)
 {
-    int most = RT__LANES;
+#if RT__LANES > 1
+    bool good = wanted <= 0 || wanted >= RT__LANES;
 #if defined(RT__X86) && RT__LANES == 8
-    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
-        most = 1;
+    good = good && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif
-    return wanted <= 0 || wanted >= most ? most : 1;
+    return good ? RT__LANES : 1;
+#else
+    (void)wanted;
+    return 1;
+#endif
 }
 
 /* What rt_render and rt_trace_pixel have in common. */
