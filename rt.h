@@ -3340,8 +3340,9 @@ typedef struct rt__place {
     rt__i left;    /* the number n of the sphere that the ray leaves on its outside, ~n on
                       its inside, or RT__NOWHERE. It is met at t = 0, which is no hit */
     rt__f low[RT__FEW]; /* of each sphere c, at least */
-    bool near[RT__FEW]; /* a ray may start in this sphere, or a light is in or near it */
-    bool any_near;
+    bool
+        beside[RT__FEW]; /* a ray may start in this sphere, or a light is in or near it */
+    bool any_beside;
 } rt__place;
 
 #define RT__NOWHERE INT_MAX
@@ -3364,10 +3365,10 @@ RT__INLINE void rt__start_at(const rt__table *s, rt__place *p, rt__f3 origin, rt
         close |= rt__less(low, doubt);
         p->low[i] = low;
     }
-    p->any_near = rt__any(close) || s->light_near;
-    for (int i = 0; p->any_near && i < s->spheres; i++) {
+    p->any_beside = rt__any(close) || s->light_near;
+    for (int i = 0; p->any_beside && i < s->spheres; i++) {
         const rt__f size = p->size + s->size[i];
-        p->near[i] = s->near_light[i] || rt__any(rt__less(p->low[i], size * size));
+        p->beside[i] = s->near_light[i] || rt__any(rt__less(p->low[i], size * size));
     }
 }
 
@@ -3415,7 +3416,7 @@ RT__INLINE rt__f rt__sphere_key(const rt__table *s, const rt__place *p, int i, r
 {
     const rt__f zero = rt__all(0.0f), low = p->low[i];
     const rt__f key = b + rt__fsqrt(rt__fnma(a, low, b * rt__fmin(b, zero)));
-    if (__builtin_expect(!p->any_near, 1) || !p->near[i])
+    if (__builtin_expect(!p->any_beside, 1) || !p->beside[i])
         return key;
     /* Inside it is the larger root; too near to the surface to tell, t may be 0. */
     const rt__f size = p->size + s->size[i], doubt = size * size;
@@ -3491,7 +3492,7 @@ RT__INLINE rt__f rt__finish_spheres(const rt__place *p, rt__f3 u, rt__f3 center,
         const rt__d a = rt__ddot(v, v), b = rt__ddot(f, v), c = rt__ddot(f, f) - r * r;
         const rt__d root = rt__dsqrt(b * b - a * c);
         rt__d key = b + root;
-        if (__builtin_expect(p->any_near, 0)) { /* inside, the other root */
+        if (__builtin_expect(p->any_beside, 0)) { /* inside, the other root */
             const rt__l in = key > 0.0;
             key = (rt__d)((in & (rt__l)(b - root)) | (~in & (rt__l)key));
         }
@@ -3768,7 +3769,7 @@ RT__INLINE rt__shade rt__shade_all(const rt__table *s, const rt__place *p, rt__f
     shade.sure = shade.may = none;
     for (int i = 0; i < s->spheres; i++) {
         const rt__f b = rt__b(s, i, u, cu), bb_over_a = b * b * over_a;
-        if (__builtin_expect(p->any_near, 0) && p->near[i]) {
+        if (__builtin_expect(p->any_beside, 0) && p->beside[i]) {
             rt__shade_near(s, p, i, b, a, &shade);
             continue;
         }
