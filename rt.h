@@ -2928,8 +2928,8 @@ struct rt__table {
     float power[RT__FEW];          /* |O|^2 - R^2, the power of the point (0,0,0) */
     float size[RT__FEW];           /* max(|O|, R), scaled by RT__DOUBT */
     float largest;                 /* of the sizes */
-    bool near_light[RT__FEW];      /* a light is in this sphere, or near to it */
-    bool light_near;               /* to any of them */
+    float lights[RT__FEW];         /* the least |S - O|^2 - R^2 of all lights */
+    float least_light;             /* of them */
 };
 
 #define RT__DOUBT 1.953125e-3f /* 2^-9, see rt__place */
@@ -2954,16 +2954,6 @@ static bool rt__are_few(const rt_scene *scene, const rt_camera *camera)
     return good;
 }
 
-/* Is the light in this sphere of the table, or so near to it that c + a + 2b is not
- * surely above its doubt? */
-static bool rt__is_near(const rt_sphere *sphere, float size, const rt_light *light)
-{
-    const rt_dvec3 l = rt_to_double(light->position);
-    const rt_dvec3 f = rt_dsub(l, rt_to_double(sphere->center));
-    const double s = (double)size + (double)RT__DOUBT * sqrt(rt_ddot(l, l));
-    return rt_ddot(f, f) - (double)sphere->radius * (double)sphere->radius < 4.0 * s * s;
-}
-
 static void rt__put(rt__column *c, int i, rt_vec3 v)
 {
     c->x[i] = v.x;
@@ -2973,6 +2963,7 @@ static void rt__put(rt__column *c, int i, rt_vec3 v)
 
 static void rt__set_table(rt__table *s, const rt_scene *scene)
 {
+    s->least_light = 1e30f;
     s->spheres = scene->sphere_count;
     s->count = s->spheres + scene->box_count;
     for (int i = 0; i < s->count; i++) {
@@ -2992,10 +2983,13 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
         s->power[i] = (float)(oo - r * r);
         s->size[i] = RT__DOUBT * (float)(oo > r * r ? sqrt(oo) : r) + 1e-10f;
         s->largest = s->size[i] > s->largest ? s->size[i] : s->largest;
-        for (int k = 0; k < scene->light_count; k++)
-            s->near_light[i] =
-                s->near_light[i] || rt__is_near(sphere, s->size[i], &scene->lights[k]);
-        s->light_near = s->light_near || s->near_light[i];
+        s->lights[i] = 1e30f;
+        for (int k = 0; k < scene->light_count; k++) {
+            const rt_dvec3 f = rt_dsub(rt_to_double(scene->lights[k].position), o);
+            const double c = rt_ddot(f, f) - r * r;
+            s->lights[i] = c < (double)s->lights[i] ? (float)c : s->lights[i];
+        }
+        s->least_light = s->lights[i] < s->least_light ? s->lights[i] : s->least_light;
     }
 }
 
@@ -3057,7 +3051,7 @@ typedef uint32_t rt__u __attribute__((vector_size(4 * RT__LANES)));
 typedef double rt__d __attribute__((vector_size(4 * RT__LANES))); /* half of the lanes */
 typedef int64_t rt__l __attribute__((vector_size(4 * RT__LANES)));
 
-/* ---- what is the machine's own ------------------------------------------------------
+/* ---- what is the machine's own ---------------------------------------------------
  *
  *     less, same    a < b; a = b, of ints       no       not, of a mask
  *     and_less      m and a < b                 bits     a mask as bits, lane 0 lowest
@@ -3287,8 +3281,8 @@ RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
 /* ====================================================================================
  * Packets: 4, 8 or 16 rays at a time
  *
- * A core of today adds 4, 8 or 16 floats with the one instruction that adds one. So here
- * are chapters 1 to 7 once more, for a packet of neighbouring pixels, each in its lane:
+ * Here are chapters 1 to 7 once more, for a packet of neighbouring pixels, each in its
+ * lane:
  *
  *     lane               0     1     2     3   ...
  *     pixel             0,0   1,0   2,0   3,0        neighbours in a row
@@ -3310,6 +3304,7 @@ RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
  *
  * That is for few shapes. If they are many, all rays go through the tree alone.
  * ==================================================================================== */
+
 /* ---- the shapes, and where rays start -------------------------------------------- */
 
 RT__INLINE rt__f3 rt__vpick(const rt__column *c, rt__i at, int count)
@@ -3333,16 +3328,15 @@ RT__INLINE rt__f3 rt__row(const rt__column *c, int i)
  * of 9 roundings is 2^-24 of it at most. So, with some room for what comes below,
  *
  *     |error of c|  <  doubt = 2^-18 s^2,        low = c - doubt. */
-
 typedef struct rt__place {
     rt__f3 origin; /* C */
     rt__f size;    /* |C|, scaled by RT__DOUBT */
     rt__i left;    /* the number n of the sphere that the ray leaves on its outside, ~n on
                       its inside, or RT__NOWHERE. It is met at t = 0, which is no hit */
-    rt__f low[RT__FEW]; /* of each sphere c, at least */
+    rt__f low[RT__FEW]; /* of each sphere: c is this or more */
     bool
         beside[RT__FEW]; /* a ray may start in this sphere, or a light is in or near it */
-    bool any_beside;
+    bool any_beside;     /* else beside is not set */
 } rt__place;
 
 #define RT__NOWHERE INT_MAX
@@ -3365,10 +3359,13 @@ RT__INLINE void rt__start_at(const rt__table *s, rt__place *p, rt__f3 origin, rt
         close |= rt__less(low, doubt);
         p->low[i] = low;
     }
-    p->any_beside = rt__any(close) || s->light_near;
+    const rt__f most = p->size + s->largest;
+    p->any_beside =
+        rt__any(close) || rt__any(rt__less(rt__all(s->least_light), most * most));
     for (int i = 0; p->any_beside && i < s->spheres; i++) {
         const rt__f size = p->size + s->size[i];
-        p->beside[i] = s->near_light[i] || rt__any(rt__less(p->low[i], size * size));
+        const rt__f least = rt__fmin(p->low[i], rt__all(s->lights[i]));
+        p->beside[i] = rt__any(rt__less(least, size * size));
     }
 }
 
@@ -3437,7 +3434,8 @@ RT__INLINE rt__slab_rays rt__for_boxes(rt__f3 origin, rt__f3 u)
     rt__slab_rays r;
     r.origin = origin;
     r.inverse = rt__vec(1.0f / u.x, 1.0f / u.y, 1.0f / u.z);
-    r.parallel = rt__less(rt__abs(u.x * u.y * u.z), rt__all(1e-29f));
+    r.parallel = rt__less(rt__fmin(rt__abs(u.x), rt__fmin(rt__abs(u.y), rt__abs(u.z))),
+                          rt__all(1e-29f));
     return r;
 }
 
@@ -3759,7 +3757,8 @@ RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt
 
 /* rt_occluded up to t = 1, of a scene with few shapes. No root is needed: where both ends
  * are outside, the sphere is in the way if the point nearest to its centre, t = -b/a, is
- * on it and inside, b^2 / a > c. */
+ * on it and inside, b^2 / a > c. (Both are outside by more than doubt, else the sphere is
+ * beside a ray: see rt__start_at. The end is the light but for rounding u.) */
 RT__INLINE rt__shade rt__shade_all(const rt__table *s, const rt__place *p, rt__f3 u)
 {
     const rt__f a = rt__dot(u, u), cu = rt__dot(p->origin, u), zero = rt__all(0.0f);

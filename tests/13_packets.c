@@ -803,6 +803,28 @@ static void test_huge_scenes(void **state)
     }
 }
 
+static void test_lights_next_to_small_spheres_seen_from_afar(void **state)
+{
+    /* Where the end of a shadow ray is rounded by more than its distance from the sphere. */
+    (void)state;
+    rt_rng rng = rt_rng_start(0, 0, 65);
+    for (int i = 0; i < 60; i++) {
+        const float size = powf(10, 3 + (float)(i % 8) / 2);
+        const rt_sphere sphere = {
+            {5, 0, 0}, 3, {{1, 0.4f, 1}, i % 3 == 0}}; /* and lights around it */
+        const rt_box box = {{-size, -size, -size}, {size, size, size}, {{1, 0.5f, 1}, 0}};
+        const float r1 = rt_random(&rng), r2 = rt_random(&rng);
+        const rt_vec3 out = rt_sample_cosine(rt_vec(0, i % 2 == 0 ? 1 : -1, 0), r1, r2);
+        const rt_light light = {
+            rt_add(sphere.center, rt_scale(out, 3.0f + powf(10, (float)(i % 5 - 4)))),
+            {4, 4, 4}};
+        const rt_scene scene = {&sphere, 1, &box, 1, &light, 1, {0, 0, 0}, NULL};
+        const rt_camera camera = {{2, 8, -4}, {0.7f, -0.1f, 0.7f}, {0, 1, 0}, 90};
+        const picture p = picture_of(&scene, &camera);
+        compare(&p, "light next to a sphere", i);
+    }
+}
+
 /* Of what is only faster, nothing else would tell. */
 static void test_the_room_is_asked_shape_by_shape(void **state)
 {
@@ -848,6 +870,7 @@ int main(void)
         cmocka_unit_test(test_odd_scenes),
         cmocka_unit_test(test_random_scenes),
         cmocka_unit_test(test_huge_scenes),
+        cmocka_unit_test(test_lights_next_to_small_spheres_seen_from_afar),
         cmocka_unit_test(test_no_shapes),
         cmocka_unit_test(test_the_room_is_asked_shape_by_shape),
     };
