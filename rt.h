@@ -3159,6 +3159,7 @@ RT__INLINE unsigned rt__bits(rt__m m)
 #endif
 #endif
 
+#define RT__NOINLINE static __attribute__((noinline)) /* rare, so out of the way */
 #define rt__any(m) (rt__bits(m) != 0)
 #define rt__count(m) ((uint64_t)__builtin_popcount(rt__bits(m)))
 #define rt__iselect(m, a, b) ((rt__i)rt__select(m, (rt__f)(a), (rt__f)(b)))
@@ -3333,10 +3334,9 @@ typedef struct rt__place {
     rt__f size;    /* |C|, scaled by RT__DOUBT */
     rt__i left;    /* the number n of the sphere that the ray leaves on its outside, ~n on
                       its inside, or RT__NOWHERE. It is met at t = 0, which is no hit */
-    rt__f low[RT__FEW]; /* of each sphere: c is this or more */
-    bool
-        beside[RT__FEW]; /* a ray may start in this sphere, or a light is in or near it */
-    bool any_beside;     /* else beside is not set */
+    rt__f low[RT__FEW];   /* of each sphere: c is this or more */
+    bool beside[RT__FEW]; /* does a ray start in or near it, or is a light there? */
+    bool any_beside;      /* else beside is not set */
 } rt__place;
 
 #define RT__NOWHERE INT_MAX
@@ -3458,8 +3458,7 @@ RT__INLINE rt__nearest rt__ask_all(const rt__table *s, const rt__place *p, rt__f
     const rt__f cu = rt__dot(p->origin, u), zero = rt__all(0.0f);
     rt__nearest n;
     n.best = n.others = rt__all(RT__NEVER);
-    n.at = (rt__i)zero;
-    rt__i here = (rt__i)zero;
+    rt__i here = n.at = (rt__i)zero;
     for (int i = 0; i < s->spheres; i++, here += 1)
         rt__offer(&n, rt__sphere_key(s, p, i, here, rt__b(s, i, u, cu), a), here);
     if (s->spheres == s->count)
@@ -3546,9 +3545,9 @@ RT__INLINE void rt__face(rt__m here, rt__m inside, rt__f o, rt__f u, rt__f low,
 
 /* rt_hit_box, for lanes whose nearest shape is a box, if its key is above limit; returns
  * those for which that is so. */
-static __attribute__((noinline)) rt__m
-rt__finish_boxes(const rt__table *s, const rt__f3 *origin, const rt__f3 *direction,
-                 rt__m lanes, const rt__i *at, const rt__f *limit, rt__hits *hits)
+RT__NOINLINE rt__m rt__finish_boxes(const rt__table *s, const rt__f3 *origin,
+                                    const rt__f3 *direction, rt__m lanes, const rt__i *at,
+                                    const rt__f *limit, rt__hits *hits)
 {
     const rt__f3 o = *origin, u = *direction;
     const rt__f3 low = rt__vpick(&s->place, *at, s->count);
@@ -3679,18 +3678,16 @@ RT__INLINE void rt__set_lane(rt__f3 *v, int lane, rt_vec3 to)
 }
 
 /* rt__search for one lane; number of a shape, or -1. */
-static __attribute__((noinline)) int rt__search_boxes(const rt_scene *scene,
-                                                      const rt_ray *ray, bool any)
+RT__NOINLINE int rt__search_boxes(const rt_scene *scene, const rt_ray *ray, bool any)
 {
     return rt__search(scene, ray, any ? 1.0f : FLT_MAX, any, rt__enter_boxes);
 }
 
 /* rt_intersect, one ray after the other: for many shapes, and for lanes in doubt. A new
  * kind of shape that is rare would be asked here, too. */
-static __attribute__((noinline)) void rt__find_in_tree(const rt_scene *scene,
-                                                       const rt__f3 *origin,
-                                                       const rt__f3 *direction,
-                                                       unsigned lanes, rt__hits *hits)
+RT__NOINLINE void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
+                                   const rt__f3 *direction, unsigned lanes,
+                                   rt__hits *hits)
 {
     for (; lanes != 0; lanes &= lanes - 1u) {
         const int lane = rt__lowest(lanes);
@@ -3711,10 +3708,8 @@ static __attribute__((noinline)) void rt__find_in_tree(const rt_scene *scene,
 }
 
 /* rt_occluded likewise, up to the light at t = 1. */
-static __attribute__((noinline)) rt__m rt__shade_in_tree(const rt_scene *scene,
-                                                         const rt__f3 *origin,
-                                                         const rt__f3 *direction,
-                                                         unsigned lanes)
+RT__NOINLINE rt__m rt__shade_in_tree(const rt_scene *scene, const rt__f3 *origin,
+                                     const rt__f3 *direction, unsigned lanes)
 {
     rt__f blocked = {0.0f};
     for (; lanes != 0; lanes &= lanes - 1u) {
@@ -3804,8 +3799,7 @@ RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__m below)
     return rt__add(point, rt__scale(normal, rt__select(below, -offset, offset)));
 }
 
-/* rt_direct, rt_visible and rt_lambert. A light with a size would draw its position here.
- */
+/* rt_direct, rt_visible and rt_lambert. A light with a size would draw a point here. */
 RT__INLINE rt__f3 rt__light(const rt__job *job, const rt__place *p, rt__m lanes,
                             const rt__hits *hits, uint64_t *rays)
 {
@@ -3928,8 +3922,7 @@ RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
 
     const rt__f one = rt__all(1.0f);
     const rt__f sign = rt__select(rt__less(n.z, one - one), -one, one);
-    const rt__f k = -1.0f / (sign + n.z);
-    const rt__f m = n.x * n.y * k;
+    const rt__f k = -1.0f / (sign + n.z), m = n.x * n.y * k;
     const rt__f3 a = rt__vec(1.0f + sign * n.x * n.x * k, sign * m, -sign * n.x);
     const rt__f3 b = rt__vec(m, sign + n.y * n.y * k, -n.y);
 
