@@ -1517,6 +1517,136 @@ static inline uint32_t rt__sobol(const rt_rng *rng)
 }
 
 /* ====================================================================================
+ * Chapter 10. A clean picture from few rays
+ *
+ * With few rays every pixel is wrong, but each in its own way, and its neighbours mostly
+ * see the same surface in nearly the same light. So the mean over neighbours is nearer to
+ * the truth than any of them, if one knows whom to ask. The camera rays know it: what a
+ * pixel sees, and how much light the lamps send there directly, has hardly any noise. So
+ *
+ *     pixel = direct + albedo . light,
+ *
+ * and only the light, that is what arrives by way of other surfaces, is taken from the
+ * neighbours (rt_denoise, below):
+ *
+ *  1. Smooth. Means over 5 x 5 pixels, then over 5 x 5 that are twice as far apart, then
+ *     four times ... (a trous, "with holes"): five times 25 reach as far as 125 x 125.
+ *     Who sees another surface, or light that differs by more than noise can explain,
+ *     counts little.
+ *  2. Edges. A pixel that sees two surfaces has no neighbours like itself. It is a
+ *     mixture of two opposite ones, and the guides tell in which proportion.
+ *  3. Doubt. Where the outcome is farther from the noisy pixels than their noise can
+ *     explain, it is wrong, and they get part of their say back. So as the samples grow
+ *     the picture tends to the truth.
+ *
+ * H. Dammertz et al., "Edge-avoiding a-trous wavelet transform for fast global
+ * illumination filtering", HPG 2010; C. Schied et al., "Spatiotemporal variance-guided
+ * filtering", HPG 2017. Steps 2 and 3 are ours; what all gain is in docs/10-clean.md.
+ * ==================================================================================== */
+
+/* What the camera rays of a pixel tell at once: of the first surface that is no mirror,
+ * and of the light that comes without a detour. In an image the means over its samples;
+ * all zero, but for direct, where there is no surface. */
+typedef struct rt_guide {
+    rt_vec3 normal, point; /* of that surface, and in the world */
+    rt_vec3 albedo;        /* what arrives here of the light that it gets from others: its
+                              albedo, and that of the mirrors before it */
+    rt_vec3 direct;        /* its direct light, or the background */
+    rt_vec3 half;          /* of direct, the mean of every second sample */
+} rt_guide;
+
+/* Follow the camera ray to the first surface that is no mirror, as rt_radiance does, over
+ * four mirrors at most. (What comes by way of more is smoothed on the last of them.) */
+static inline rt_guide rt_first_look(const rt_scene *scene, const rt_ray *camera_ray,
+                                     int bounces, rt_rng *rng)
+{
+    rt_ray ray = *camera_ray;
+    rt_vec3 throughput = rt_vec(1.0f, 1.0f, 1.0f);
+    rt_guide guide;
+    memset(&guide, 0, sizeof guide);
+    for (int bounce = 0;; bounce++) {
+        rt_hit hit;
+        if (!rt_intersect(scene, &ray, &hit)) {
+            guide.direct = rt_mul(throughput, scene->background);
+            return guide;
+        }
+        const rt_material *material = hit.material;
+        if (!material->mirror)
+            guide.direct = rt_mul(throughput, rt_direct(scene, &hit, rng));
+        if (!(material->mirror && rt_is_zero(material->albedo)))
+            throughput = rt_mul(throughput, material->albedo);
+        if (!material->mirror || bounce >= bounces || bounce >= RT__ROULETTE) {
+            guide.normal = hit.normal;
+            guide.point = hit.point;
+            guide.albedo = throughput;
+            return guide;
+        }
+        const rt_vec3 direction = rt_reflect(ray.direction, hit.normal);
+        ray.origin = rt_leave(hit.point, hit.normal, direction);
+        ray.direction = direction;
+    }
+}
+
+/* How unlike two pixels are, by what they see: 0, if the same plane; about 1, if one had
+ * better not ask the other. |N1 - N2|^2 counts, and how far each point lies off the plane
+ * of the other, as the sine of an angle: whatever the unit of length is. */
+RT__INLINE float rt__unlike(rt_vec3 normal1, rt_vec3 point1, rt_vec3 normal2,
+                            rt_vec3 point2)
+{
+    const rt_vec3 turned = rt_sub(normal1, normal2), way = rt_sub(point2, point1);
+    const float off1 = rt_dot(normal1, way), off2 = rt_dot(normal2, way);
+    return 20.0f * rt_dot(turned, turned) +
+           50.0f * (off1 * off1 + off2 * off2) / (rt_dot(way, way) + FLT_MIN);
+}
+
+/* How unlike two values of light are: their difference squared over what is usual for
+ * noise of these variances. Six deviations are still near, since these pixels are yet to
+ * be smoothed. */
+RT__INLINE float rt__unlike_light(float light1, float variance1, float light2,
+                                  float variance2)
+{
+    const float d = light1 - light2;
+    return d * d / (36.0f * (variance1 + variance2) + FLT_MIN);
+}
+
+/* How much a pixel counts that is so unlike: 1 for 0, and about e^-x, without libm. */
+RT__INLINE float rt__say(float unlike)
+{
+    const float root = 1.0f / (1.0f + 0.25f * unlike);
+    return root * root * root * root;
+}
+
+/* If a pixel is a mixture of two others, (1-t) of the first and t of the second, which t
+ * is it? The one that comes nearest, for a vector of normal, albedo and point: the foot
+ * of the perpendicular. *off: how far it is still off, squared. */
+RT__INLINE float rt__mixture(const rt_vec3 *pixel, const rt_vec3 *first,
+                             const rt_vec3 *second, float *off)
+{
+    const rt_vec3 n = rt_sub(second[0], first[0]), n0 = rt_sub(pixel[0], first[0]);
+    const rt_vec3 a = rt_sub(second[1], first[1]), a0 = rt_sub(pixel[1], first[1]);
+    const rt_vec3 p = rt_sub(second[2], first[2]), p0 = rt_sub(pixel[2], first[2]);
+    const float unit = 1.0f / (rt_dot(p, p) + FLT_MIN); /* points count as 1 at most */
+    const float all = rt_dot(n, n) + rt_dot(a, a) + unit * rt_dot(p, p);
+    const float part = rt_dot(n, n0) + rt_dot(a, a0) + unit * rt_dot(p, p0);
+    float t = part / (all + FLT_MIN);
+    t = t > 0.0f ? t < 1.0f ? t : 1.0f : 0.0f;
+    const rt_vec3 n1 = rt_sub(n0, rt_scale(n, t)), a1 = rt_sub(a0, rt_scale(a, t));
+    const rt_vec3 p1 = rt_sub(p0, rt_scale(p, t));
+    *off = rt_dot(n1, n1) + rt_dot(a1, a1) + unit * rt_dot(p1, p1);
+    return t;
+}
+
+/* How much of the noisy pixels comes back, 0 to 1. If they differ from the outcome by so
+ * much (means of squares), and their variance is noise, then the rest is the square of
+ * the mistake; weighed against the noise as the two variances of a mean are. Noise counts
+ * twice, lest chance look like a mistake. */
+RT__INLINE float rt__doubt(float differ, float noise)
+{
+    const float mistake = differ > 2.0f * noise ? differ - 2.0f * noise : 0.0f;
+    return mistake / (mistake + noise + FLT_MIN);
+}
+
+/* ====================================================================================
  * Pictures
  * ==================================================================================== */
 
@@ -1538,6 +1668,8 @@ typedef struct rt_image {
                       left when the means are rounded. Means of more than some thousands
                       of samples need it, see rt_render. To be added or taken away as half
                       is */
+    rt_guide *guides; /* NULL, or one for each pixel, for what rt_denoise wants to know:
+                      means over the same samples. To be added or taken away as half is */
 } rt_image;
 
 /* Begin a new picture in the same memory. */
@@ -1599,7 +1731,8 @@ typedef enum rt_status {
     RT_BAD_SPHERE,
     RT_BAD_BOX,
     RT_BAD_LIGHT,
-    RT_BAD_BACKGROUND
+    RT_BAD_BACKGROUND,
+    RT_BAD_GUIDES
 } rt_status;
 
 /* The colour seen through the point (x, y) of the film, an estimate with the numbers of
@@ -1645,6 +1778,37 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
  * 0 for a black image, INFINITY, that is unknown, with less than 2 samples or without
  * half. */
 RTDEF float rt_image_error(const rt_image *image);
+
+/* Finish a picture of few samples (chapter 10): result->pixels becomes the image without
+ * most of its noise. The image must have half and guides, and two samples at least; it
+ * stays as it is, so rendering may go on. threads as in rt_options. The same bits on
+ * every machine and for any number of threads. While it works it borrows 88 bytes for
+ * each pixel from RT_MALLOC.
+ *
+ * result is an image of the same size with pixels of its own. It gets samples, done and
+ * rays from image; half and guides are not looked at. A pixel that is not finite, or
+ * above 1e15, stays as it is, and no other asks it.
+ *
+ * What the guides do not show is lost where it is fainter than the noise, as are shadows
+ * in indirect light. The more samples there are, the more of it is back.
+ *
+ * RT_BAD_POINTER, RT_BAD_SIZE (also if result has another), RT_BAD_SAMPLES (less than
+ * 2), RT_BAD_GUIDES (no guides or no half), RT_BAD_THREADS, RT_NO_MEMORY: then the result
+ * is untouched. */
+RTDEF rt_status rt_denoise(const rt_image *image, int threads, rt_image *result);
+
+/* The estimated error of what rt_denoise makes of the image, in units of rt_image_error:
+ * not only noise, but also what is smoothed and should not be. Even and odd samples, with
+ * means A and B, are finished apart into A' and B'. A' has not seen B, so |A' - B|^2 is
+ * the square of its error plus the variance of B; and likewise for B'. The variances are
+ * |A - B|^2 in all:
+ *
+ *     error^2 = 1/2 mean of |A' - B|^2 + |B' - A|^2 - |A - B|^2.
+ *
+ * That is the error with half of the samples, and so a little too large. It takes twice
+ * as long as rt_denoise, and 24 bytes more for each pixel. INFINITY, that is unknown,
+ * where rt_denoise would return an error. */
+RTDEF float rt_denoised_error(const rt_image *image, int threads);
 
 /* One point of a path: the ray that was followed, and what it met. */
 typedef struct rt_vertex {
@@ -1888,10 +2052,10 @@ RTDEF const char *rt_status_text(rt_status status)
                "set the pointer, or the count to 0";
     case RT_BAD_SIZE:
         return "image: make width and height at least 1, their product at most 2^31 - 1, "
-               "done at least 0 and less than that";
+               "done at least 0 and less than that; the result of rt_denoise as large";
     case RT_BAD_SAMPLES:
         return "samples: make options.samples and image.samples at least 0, and both "
-               "together at most 2^31 - 1";
+               "together at most 2^31 - 1; rt_denoise wants 2 in the image";
     case RT_BAD_BOUNCES:
         return "bounces: make it at least 0; RT_ALL_BOUNCES is all light";
     case RT_BAD_THREADS: return "threads: make it 1 to 1024, or 0 for all cores";
@@ -1920,6 +2084,8 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_LIGHT:
         return "light: make its numbers at most 1e15, no intensity negative; "
                "rt_check_scene tells which light";
+    case RT_BAD_GUIDES:
+        return "guides: set image.half and image.guides before it is rendered";
     case RT_BAD_BACKGROUND: return "background: make it 0 to 1e15 in red, green and blue";
     }
     return "unknown status";
@@ -2327,10 +2493,10 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
 typedef struct rt__job rt__job;
 typedef struct rt__table rt__table; /* see the last section */
 
-/* Trace sample number sample of the pixels from first to last - 1 into values; returns
- * how many rays it took. */
+/* Trace sample number sample of the pixels from first to last - 1 into values and, unless
+ * NULL, guides; returns how many rays it took. */
 typedef uint64_t rt__step(const rt__job *job, int sample, int first, int last,
-                          rt_watch *watch, rt_vec3 *values);
+                          rt_watch *watch, rt_vec3 *values, rt_guide *guides);
 
 struct rt__job {
     rt__step *step;
@@ -2387,6 +2553,17 @@ static inline void rt__record(rt_image *image, int sample, int i, rt_vec3 value)
     rt__add_to_mean(&image->half[i], rest, sample / 2, value);
 }
 
+static inline void rt__record_guide(rt_image *image, int sample, int i, rt_guide value)
+{
+    rt_guide *guide = &image->guides[i];
+    rt__add_to_mean(&guide->normal, NULL, sample, value.normal);
+    rt__add_to_mean(&guide->point, NULL, sample, value.point);
+    rt__add_to_mean(&guide->albedo, NULL, sample, value.albedo);
+    rt__add_to_mean(&guide->direct, NULL, sample, value.direct);
+    if (sample % 2 == 0)
+        rt__add_to_mean(&guide->half, NULL, sample / 2, value.direct);
+}
+
 /* A random point of pixel number i, and the colour there. */
 static inline rt_vec3 rt__look(const rt__job *job, int i, rt_rng *rng)
 {
@@ -2405,13 +2582,42 @@ static inline rt_rng rt__start(const rt__job *job, int sample, int i)
                                              : rt_sobol_start((uint32_t)i, index, seed);
 }
 
+static inline rt_ray rt__ray(const rt__job *job, float x, float y)
+{
+#ifdef rt_camera_ray /* yours, which knows nothing of films */
+    return rt_camera_ray(job->camera, job->image->width, job->image->height, x, y);
+#else
+    return rt__film_ray(&job->film, x, y);
+#endif
+}
+
+static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *rng)
+{
+    const rt__job *job = (const rt__job *)context;
+    const rt_ray ray = rt__ray(job, x, y);
+    return rt_radiance(job->scene, &ray, job->options.bounces, rng);
+}
+
+/* The first look of the sample whose numbers these are. */
+static inline rt_guide rt__guide(const rt__job *job, int i, rt_rng rng)
+{
+    const int width = job->image->width, column = i % width, row = i / width;
+    const float dx = rt_random(&rng);
+    const float dy = rt_random(&rng);
+    const rt_ray ray = rt__ray(job, (float)column + dx, (float)row + dy);
+    return rt_first_look(job->scene, &ray, job->options.bounces, &rng);
+}
+
 static inline uint64_t rt__step_pixels(const rt__job *job, int sample, int first,
-                                       int last, rt_watch *watch, rt_vec3 *values)
+                                       int last, rt_watch *watch, rt_vec3 *values,
+                                       rt_guide *guides)
 {
     uint64_t rays = 0;
     for (int i = first; i < last; i++) {
         rt_rng rng = rt__start(job, sample, i);
         rng.watch = watch;
+        if (guides)
+            guides[i - first] = rt__guide(job, i, rng);
         values[i - first] = rt__look(job, i, &rng);
         rays += rng.rays;
         rt__tick(watch);
@@ -2644,6 +2850,8 @@ static inline void rt__work(rt__team *team, int thread)
     const bool looks_up = job->options.progress || job->options.seconds > 0.0f;
     rt_watch *watch = thread == 0 && looks_up ? &team->watch : NULL;
     rt_vec3 values[RT__CHUNK];
+    rt_guide guides[RT__CHUNK];
+    const bool guided = image->guides && job->scene;
     uint64_t rays = 0;
     rt__task task;
     task.chunk = task.from = task.to = 0;
@@ -2654,12 +2862,15 @@ static inline void rt__work(rt__team *team, int thread)
             first = team->first_pixel;
         rays = 0;
         for (int sample = task.from; sample < task.to; sample++) {
-            rays += job->step(job, sample, first, last, watch, values);
+            rays += job->step(job, sample, first, last, watch, values,
+                              guided ? guides : NULL);
             while (sample == task.from && !rt__may_record(team, &task, thread))
                 rt__tick(watch);
             rt__lock(&team->writing[thread]);
             for (int i = first; i < last; i++)
                 rt__record(image, sample, i, values[i - first]);
+            for (int i = first; guided && i < last; i++)
+                rt__record_guide(image, sample, i, guides[i - first]);
             rt__unlock(&team->writing[thread]);
         }
         if (watch)
@@ -2819,18 +3030,6 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
     return rt__run(&job);
 }
 
-static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *rng)
-{
-    const rt__job *job = (const rt__job *)context;
-#ifdef rt_camera_ray /* yours, which knows nothing of films */
-    const rt_ray ray =
-        rt_camera_ray(job->camera, job->image->width, job->image->height, x, y);
-#else
-    const rt_ray ray = rt__film_ray(&job->film, x, y);
-#endif
-    return rt_radiance(job->scene, &ray, job->options.bounces, rng);
-}
-
 RTDEF int rt_lane_count(int wanted)
 {
 #if RT__LANES > 1
@@ -2906,6 +3105,402 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
     path->rays = rng.rays;
     path->scene = NULL;
     return RT_OK;
+}
+
+/* ---- finishing a picture: chapter 10, sixteen pixels at a time ------------------- */
+
+/* All pixels take the same steps, one row after the other. The loops over the 16 pixels of
+ * a block do without if, so that a compiler can do several of them at once. */
+enum { RT__BLOCK = 16, RT__PASSES = 4, RT__MARGIN = 2 << (RT__PASSES - 1) };
+
+/* Which samples of the image? */
+typedef enum rt__samples { RT__ALL, RT__EVEN, RT__ODD } rt__samples;
+
+/* Planes of a number for each pixel. All rows have margins, where all numbers are 0. */
+typedef struct rt__finish {
+    const rt_image *image;
+    rt__samples part;
+    rt_vec3 *result;
+    int width, height, stride;
+    int pass;     /* of the smoothing */
+    float *known; /* 1; 0: in the margin, no surface, or no number */
+    float *normal[3], *point[3], *albedo[3];
+    float *indirect[3], *noise;       /* the noisy image without direct light */
+    float *light[2][3], *variance[2]; /* per unit of albedo, now and before */
+} rt__finish;
+
+enum { RT__PLANES = 1 + 3 * 3 + 3 + 1 + 2 * 3 + 2 };
+
+static inline int rt__at_row(const rt__finish *f, int y)
+{
+    return y * f->stride + RT__MARGIN;
+}
+
+RT__INLINE rt_vec3 rt__get(float *const *planes, int i)
+{
+    return rt_vec(planes[0][i], planes[1][i], planes[2][i]);
+}
+
+RT__INLINE void rt__set(float *const *planes, int i, rt_vec3 v)
+{
+    planes[0][i] = v.x;
+    planes[1][i] = v.y;
+    planes[2][i] = v.z;
+}
+
+RT__INLINE float rt__mean(rt_vec3 v)
+{
+    return (v.x + v.y + v.z) * (1.0f / 3.0f);
+}
+
+static inline bool rt__is_moderate(rt_vec3 v)
+{
+    return fabsf(v.x) <= 1e15f && fabsf(v.y) <= 1e15f && fabsf(v.z) <= 1e15f;
+}
+
+/* Light per unit of albedo. A channel in which the surface sends nothing on does not show
+ * it: there it is taken to be as in the mean of all. */
+static inline rt_vec3 rt__per_albedo(rt_vec3 light, rt_vec3 albedo)
+{
+    const float mean = rt__mean(light) / rt__mean(albedo);
+    return rt_vec(albedo.x > 0.0f ? light.x / albedo.x : mean,
+                  albedo.y > 0.0f ? light.y / albedo.y : mean,
+                  albedo.z > 0.0f ? light.z / albedo.z : mean);
+}
+
+/* The mean over the samples of a part, from those of all and of the even ones; *spread:
+ * its standard deviation, where that of all shows as the difference of the two. */
+static inline rt_vec3 rt__part_of(const rt__finish *f, int i, rt_vec3 all, rt_vec3 even,
+                                  float *spread)
+{
+    const int n = f->image->samples + (i < f->image->done), odds = n / 2;
+    const float ratio = (float)(n - odds) / (float)odds; /* even to odd */
+    *spread = sqrtf(f->part == RT__ALL    ? ratio
+                    : f->part == RT__EVEN ? 1.0f + ratio
+                                          : (1.0f + ratio) * ratio);
+    return f->part == RT__ALL    ? all
+           : f->part == RT__EVEN ? even
+                                 : rt_add(all, rt_scale(rt_sub(all, even), ratio));
+}
+
+static inline void rt__load_row(const rt__finish *f, int y)
+{
+    const rt_image *image = f->image;
+    for (int x = 0; x < f->width; x++) {
+        const int from = y * f->width + x, i = rt__at_row(f, y) + x;
+        const rt_guide *g = &image->guides[from];
+        const rt_vec3 pixel = image->pixels[from], half = image->half[from];
+        if (!(rt__is_moderate(pixel) && rt__is_moderate(half) &&
+              rt__is_moderate(g->normal) && rt__is_moderate(g->point) &&
+              rt__is_moderate(g->albedo) && rt__is_moderate(g->direct) &&
+              rt__is_moderate(g->half) && rt__mean(g->albedo) > 0.0f))
+            continue;
+        float spread;
+        const rt_vec3 all = rt_sub(pixel, g->direct), even = rt_sub(half, g->half);
+        const rt_vec3 indirect = rt__part_of(f, from, all, even, &spread);
+        const rt_vec3 differ = rt_scale(rt_sub(even, all), spread);
+        const rt_vec3 light = rt__per_albedo(indirect, g->albedo);
+        const float d = rt__mean(rt__per_albedo(differ, g->albedo));
+        if (!rt__is_moderate(light) || !(fabsf(d) <= 1e15f))
+            continue;
+        f->known[i] = 1.0f;
+        rt__set(f->normal, i, g->normal);
+        rt__set(f->point, i, g->point);
+        rt__set(f->albedo, i, g->albedo);
+        rt__set(f->indirect, i, indirect);
+        rt__set(f->light[0], i, light);
+        f->noise[i] = rt_dot(differ, differ);
+        f->variance[1][i] = d * d;
+    }
+}
+
+/* The mean of a plane over the known of 7 x 7 pixels: a single one tells little about its
+ * variance. */
+RT__INLINE void rt__average_row(const rt__finish *f, int y, const float *from, float *to)
+{
+    for (int x = 0; x < f->width; x += RT__BLOCK) {
+        const int i = rt__at_row(f, y) + x;
+        float sum[RT__BLOCK] = {0.0f}, count[RT__BLOCK] = {0.0f};
+        for (int dy = y < 3 ? -y : -3; dy <= 3 && y + dy < f->height; dy++)
+            for (int dx = -3; dx <= 3; dx++) {
+                const int j = i + dy * f->stride + dx;
+                for (int k = 0; k < RT__BLOCK; k++) {
+                    sum[k] += f->known[j + k] * from[j + k];
+                    count[k] += f->known[j + k];
+                }
+            }
+        for (int k = 0; k < RT__BLOCK; k++)
+            to[i + k] = sum[k] / (count[k] + FLT_MIN);
+    }
+}
+
+static inline void rt__variance_row(const rt__finish *f, int y)
+{
+    rt__average_row(f, y, f->variance[1], f->variance[0]);
+}
+
+/* One pass of the filter, with holes: the weights 1 4 6 4 1 (/ 16) of a spline in x and
+ * y, times what each pixel has to say. The variance of a mean with weights w is the sum
+ * of w^2 variance, over the square of the sum of w. */
+static inline void rt__smooth_row(const rt__finish *f, int y)
+{
+    static const float spline[5] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};
+    const int step = 1 << f->pass, from = f->pass & 1;
+    float *const *light = f->light[from];
+    const float *variance = f->variance[from];
+    for (int x = 0; x < f->width; x += RT__BLOCK) {
+        const int i = rt__at_row(f, y) + x;
+        float red[RT__BLOCK] = {0.0f}, green[RT__BLOCK] = {0.0f},
+              blue[RT__BLOCK] = {0.0f};
+        float noise[RT__BLOCK] = {0.0f}, weights[RT__BLOCK] = {0.0f};
+        for (int dy = -2; dy <= 2; dy++) {
+            if (y + dy * step < 0 || y + dy * step >= f->height)
+                continue;
+            for (int dx = -2; dx <= 2; dx++) {
+                const int to = (dy * f->stride + dx) * step;
+                const float part = spline[dy + 2] * spline[dx + 2];
+                for (int k = i; k < i + RT__BLOCK; k++) {
+                    const rt_vec3 here = rt__get(light, k),
+                                  there = rt__get(light, k + to);
+                    const float unlike =
+                        rt__unlike(rt__get(f->normal, k), rt__get(f->point, k),
+                                   rt__get(f->normal, k + to),
+                                   rt__get(f->point, k + to)) +
+                        rt__unlike_light(rt__mean(here), variance[k], rt__mean(there),
+                                         variance[k + to]);
+                    const float w = part * f->known[k + to] * rt__say(unlike);
+                    red[k - i] += w * there.x;
+                    green[k - i] += w * there.y;
+                    blue[k - i] += w * there.z;
+                    noise[k - i] += w * w * variance[k + to];
+                    weights[k - i] += w;
+                }
+            }
+        }
+        for (int k = 0; k < RT__BLOCK; k++) {
+            const float w = 1.0f / (weights[k] + FLT_MIN);
+            rt__set(f->light[!from], i + k,
+                    rt_vec(red[k] * w, green[k] * w, blue[k] * w));
+            f->variance[!from][i + k] = noise[k] * w * w;
+        }
+    }
+}
+
+/* From light per unit of albedo back to what arrives. */
+static inline void rt__unload_row(const rt__finish *f, int y)
+{
+    const int first = rt__at_row(f, y);
+    float *const *light = f->light[RT__PASSES & 1];
+    for (int i = first; i < first + f->width; i++)
+        rt__set(light, i, rt_mul(rt__get(light, i), rt__get(f->albedo, i)));
+}
+
+/* Pixels with a neighbour that is unlike them: means of the four mixtures of opposite
+ * neighbours, each with what its guides have to say, and of themselves. */
+static inline void rt__edge_row(const rt__finish *f, int y)
+{
+    const int from = RT__PASSES & 1;
+    float *const *light = f->light[from];
+    const int opposite[4] = {1, f->stride, f->stride + 1, f->stride - 1};
+    const bool inside = y > 0 && y < f->height - 1;
+    for (int x = 0; x < f->width; x += RT__BLOCK) {
+        const int i = rt__at_row(f, y) + x;
+        float red[RT__BLOCK], green[RT__BLOCK], blue[RT__BLOCK];
+        float weights[RT__BLOCK], most[RT__BLOCK];
+        for (int k = 0; k < RT__BLOCK; k++) {
+            red[k] = light[0][i + k];
+            green[k] = light[1][i + k];
+            blue[k] = light[2][i + k];
+            weights[k] = 1.0f;
+            most[k] = 0.0f;
+        }
+        for (int n = 0; n < (inside ? 4 : 1); n++)
+            for (int k = i; k < i + RT__BLOCK; k++) {
+                const int j = k + opposite[n], l = k - opposite[n];
+                const rt_vec3 pixel[3] = {rt__get(f->normal, k), rt__get(f->albedo, k),
+                                          rt__get(f->point, k)};
+                const rt_vec3 first[3] = {rt__get(f->normal, j), rt__get(f->albedo, j),
+                                          rt__get(f->point, j)};
+                const rt_vec3 second[3] = {rt__get(f->normal, l), rt__get(f->albedo, l),
+                                           rt__get(f->point, l)};
+                float off;
+                const float t = rt__mixture(pixel, first, second, &off);
+                const float w = f->known[j] * f->known[l] / (400.0f * off * off + 1e-4f);
+                red[k - i] += w * ((1.0f - t) * light[0][j] + t * light[0][l]);
+                green[k - i] += w * ((1.0f - t) * light[1][j] + t * light[1][l]);
+                blue[k - i] += w * ((1.0f - t) * light[2][j] + t * light[2][l]);
+                weights[k - i] += w;
+                const rt_vec3 a = rt_sub(pixel[1], first[1]),
+                              b = rt_sub(pixel[1], second[1]);
+                const float one =
+                    f->known[j] * (rt__unlike(pixel[0], pixel[2], first[0], first[2]) +
+                                   10.0f * rt_dot(a, a));
+                const float other =
+                    f->known[l] * (rt__unlike(pixel[0], pixel[2], second[0], second[2]) +
+                                   10.0f * rt_dot(b, b));
+                most[k - i] = most[k - i] > one ? most[k - i] : one;
+                most[k - i] = most[k - i] > other ? most[k - i] : other;
+            }
+        for (int k = 0; k < RT__BLOCK; k++) {
+            const bool edge = most[k] > 1.0f;
+            const rt_vec3 own = rt__get(light, i + k);
+            rt__set(f->light[!from], i + k,
+                    rt_vec(edge ? red[k] / weights[k] : own.x,
+                           edge ? green[k] / weights[k] : own.y,
+                           edge ? blue[k] / weights[k] : own.z));
+        }
+    }
+}
+
+/* How far the outcome is from the noisy pixels, squared. */
+static inline void rt__differ_row(const rt__finish *f, int y)
+{
+    const int first = rt__at_row(f, y);
+    float *const *light = f->light[!(RT__PASSES & 1)];
+    float *differ = f->variance[0];
+    for (int i = first; i < first + f->width; i++) {
+        const rt_vec3 d = rt_sub(rt__get(light, i), rt__get(f->indirect, i));
+        differ[i] = rt_dot(d, d);
+    }
+}
+
+/* The outcome, and as much of the noisy pixels as there is doubt. */
+static inline void rt__store_row(const rt__finish *f, int y)
+{
+    float *const *light = f->light[!(RT__PASSES & 1)];
+    float *differ = f->light[RT__PASSES & 1][0], *noise = f->light[RT__PASSES & 1][1];
+    rt__average_row(f, y, f->variance[0], differ);
+    rt__average_row(f, y, f->noise, noise);
+    for (int x = 0; x < f->width; x++) {
+        const int to = y * f->width + x, i = rt__at_row(f, y) + x;
+        const rt_vec3 clean = rt__get(light, i);
+        const rt_vec3 back = rt_scale(rt_sub(rt__get(f->indirect, i), clean),
+                                      rt__doubt(differ[i], noise[i]));
+        float spread;
+        const rt_guide *g = &f->image->guides[to];
+        f->result[to] =
+            f->known[i] > 0.0f
+                ? rt_add(rt__part_of(f, to, g->direct, g->half, &spread),
+                         rt_add(clean, back))
+                : rt__part_of(f, to, f->image->pixels[to], f->image->half[to], &spread);
+    }
+}
+
+/* One step for all rows, which threads share; they meet at its end. */
+typedef void rt__row_step(const rt__finish *f, int y);
+
+static inline void rt__all_rows(const rt__finish *f, int threads, rt__row_step *step)
+{
+    (void)threads;
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(threads)
+#endif
+    for (int y = 0; y < f->height; y++)
+        step(f, y);
+}
+
+static inline rt_status rt__check_finish(const rt_image *image, int threads)
+{
+    if (!image || !image->pixels)
+        return RT_BAD_POINTER;
+    if (image->width < 1 || image->height < 1 || image->width > INT_MAX / image->height ||
+        image->done < 0 || image->done >= image->width * image->height)
+        return RT_BAD_SIZE;
+    if (!image->half || !image->guides)
+        return RT_BAD_GUIDES;
+    if (image->samples < 2)
+        return RT_BAD_SAMPLES;
+    return threads < 0 || threads > 1024 ? RT_BAD_THREADS : RT_OK;
+}
+
+/* Finish a part of the image into result, width * height vectors. */
+static inline rt_status rt__finish_part(const rt_image *image, rt__samples part,
+                                        int threads, rt_vec3 *result)
+{
+    rt__finish f;
+    memset(&f, 0, sizeof f);
+    f.image = image;
+    f.part = part;
+    f.result = result;
+    f.width = image->width;
+    f.height = image->height;
+    f.stride = (f.width - 1) / RT__BLOCK * RT__BLOCK + RT__BLOCK + 2 * RT__MARGIN;
+    const size_t plane = (size_t)f.stride * (size_t)f.height;
+    float *next = NULL;
+    if (f.width < INT_MAX - 3 * RT__MARGIN && f.stride <= INT_MAX / f.height)
+        next = (float *)RT_MALLOC(RT__PLANES * plane * sizeof *next);
+    if (!next)
+        return RT_NO_MEMORY;
+    memset(next, 0, RT__PLANES * plane * sizeof *next);
+    f.known = next;
+    for (int k = 0; k < 3; k++) {
+        f.normal[k] = next += plane;
+        f.point[k] = next += plane;
+        f.albedo[k] = next += plane;
+        f.indirect[k] = next += plane;
+        f.light[0][k] = next += plane;
+        f.light[1][k] = next += plane;
+    }
+    f.noise = next += plane;
+    f.variance[0] = next += plane;
+    f.variance[1] = next += plane;
+    threads = rt_thread_count(threads);
+    rt__all_rows(&f, threads, rt__load_row);
+    rt__all_rows(&f, threads, rt__variance_row);
+    for (f.pass = 0; f.pass < RT__PASSES; f.pass++)
+        rt__all_rows(&f, threads, rt__smooth_row);
+    rt__all_rows(&f, threads, rt__unload_row);
+    rt__all_rows(&f, threads, rt__edge_row);
+    rt__all_rows(&f, threads, rt__differ_row);
+    rt__all_rows(&f, threads, rt__store_row);
+    RT_FREE(f.known);
+    return RT_OK;
+}
+
+RTDEF rt_status rt_denoise(const rt_image *image, int threads, rt_image *result)
+{
+    if (!result || !result->pixels)
+        return RT_BAD_POINTER;
+    rt_status status = rt__check_finish(image, threads);
+    if (status == RT_OK &&
+        (result->width != image->width || result->height != image->height))
+        status = RT_BAD_SIZE;
+    if (status == RT_OK)
+        status = rt__finish_part(image, RT__ALL, threads, result->pixels);
+    if (status != RT_OK)
+        return status;
+    result->samples = image->samples;
+    result->done = image->done;
+    result->rays = image->rays;
+    return RT_OK;
+}
+
+RTDEF float rt_denoised_error(const rt_image *image, int threads)
+{
+    if (rt__check_finish(image, threads) != RT_OK)
+        return INFINITY;
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    rt_vec3 *both = (rt_vec3 *)RT_MALLOC(2 * count * sizeof *both);
+    const bool good = both && rt__finish_part(image, RT__EVEN, threads, both) == RT_OK &&
+                      rt__finish_part(image, RT__ODD, threads, both + count) == RT_OK;
+    double squares = 0.0, sum = 0.0;
+    for (size_t i = 0; good && i < count; i++) {
+        const int n = image->samples + (i < (size_t)image->done), odds = n / 2;
+        const rt_dvec3 mean = rt_to_double(image->pixels[i]);
+        const rt_dvec3 even = rt_to_double(image->half[i]);
+        const rt_dvec3 odd =
+            rt_dmad(mean, (double)(n - odds) / odds, rt_dsub(mean, even));
+        const rt_dvec3 a = rt_dsub(rt_to_double(both[i]), odd);
+        const rt_dvec3 b = rt_dsub(rt_to_double(both[count + i]), even);
+        const rt_dvec3 noise = rt_dsub(even, odd);
+        squares += 0.5 * (rt_ddot(a, a) + rt_ddot(b, b) - rt_ddot(noise, noise));
+        sum += mean.x + mean.y + mean.z;
+    }
+    RT_FREE(both);
+    if (!good)
+        return INFINITY;
+    const double error = sqrt((squares > 0.0 ? squares : 0.0) / (3.0 * (double)count));
+    return sum > 0.0 ? (float)(error / (sum / (3.0 * (double)count))) : 0.0f;
 }
 
 /* ---- what packets of rays want to know of a scene -------------------------------- */
@@ -3940,6 +4535,8 @@ typedef struct rt__packet {
     rt__numbers numbers;
     rt__hits hits;
     rt__place place;
+    rt__m looking; /* whose guide is wanted, and not there yet */
+    rt__f3 guide_normal, guide_point, guide_albedo, guide_direct;
 } rt__packet;
 
 /* rt_radiance, its loop in three parts. First the nearest hit, ... */
@@ -3960,8 +4557,36 @@ RT__INLINE void rt__set_out(const rt__job *job, rt__packet *p, rt__m below)
                  rt__iselect(below, nowhere, p->hits.left));
 }
 
+/* rt_first_look, as part of the path: it ends in lanes that missed, or hit no mirror, or
+ * have looked far enough. */
+RT__NOINLINE void rt__look_first(const rt__job *job, rt__packet *p, int bounce,
+                                 rt__m missed, const rt__f3 *light)
+{
+    const rt__hits *hits = &p->hits;
+    const rt__f zero = rt__all(0.0f);
+    const rt__f3 rho = hits->albedo;
+    const rt__m mirror = rt__less(zero, hits->kind);
+    const rt__m clear =
+        mirror & rt__no(rt__less(zero, rt__fmax(rho.x, rt__fmax(rho.y, rho.z))));
+    const rt__m last = bounce >= job->options.bounces || bounce >= RT__ROULETTE
+                           ? p->looking
+                           : p->looking & rt__no(p->looking);
+    const rt__m ends = p->looking & (missed | last | rt__no(mirror));
+    const rt__m met = ends & rt__no(missed);
+    p->looking &= rt__no(ends);
+    p->guide_normal = rt__vselect(met, hits->normal, p->guide_normal);
+    p->guide_point = rt__vselect(met, hits->point, p->guide_point);
+    p->guide_albedo =
+        rt__vselect(met, rt__vselect(clear, p->throughput, rt__mul(p->throughput, rho)),
+                    p->guide_albedo);
+    p->guide_direct = rt__vselect(
+        missed & ends, rt__mul(p->throughput, rt__vall(job->scene->background)),
+        rt__vselect(met & rt__no(mirror), rt__mul(p->throughput, *light),
+                    p->guide_direct));
+}
+
 /* ... then background and direct light, ... */
-RT__INLINE void rt__collect(const rt__job *job, rt__packet *p, uint64_t *rays)
+RT__INLINE void rt__collect(const rt__job *job, rt__packet *p, int bounce, uint64_t *rays)
 {
     const rt__hits *hits = &p->hits;
     const rt__f zero = rt__all(0.0f);
@@ -3976,6 +4601,8 @@ RT__INLINE void rt__collect(const rt__job *job, rt__packet *p, uint64_t *rays)
     const rt__m diffuse = p->lanes & rt__no(rt__less(zero, hits->kind));
     const rt__f3 light = rt__light(job, &p->place, diffuse, hits, rays);
     p->sum = rt__vselect(diffuse, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+    if (rt__any(p->looking))
+        rt__look_first(job, p, bounce, missed, &light);
 }
 
 /* ... and the way on. A new kind of material computes its direction here, for all lanes,
@@ -4026,7 +4653,7 @@ RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count
             rt__extend(job, &packets[k]);
         }
         for (int k = 0; k < count; k++)
-            rt__collect(job, &packets[k], &rays);
+            rt__collect(job, &packets[k], bounce, &rays);
         if (bounce >= job->options.bounces)
             return rays;
         for (int k = 0; k < count; k++) {
@@ -4040,7 +4667,7 @@ RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count
 
 /* rt__start, rt__look and rt__film_ray: the pixels from number first on. */
 RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
-                          rt__packet *p)
+                          bool guided, rt__packet *p)
 {
     const int width = job->image->width;
     const rt__film *film = &job->film;
@@ -4082,26 +4709,41 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     p->lanes = rt__less(zero, __builtin_convertvector(last - first - lane, rt__f));
     p->sum = rt__vec(zero, zero, zero);
     p->throughput = rt__vec(one, one, one);
+    p->looking = guided ? p->lanes : none;
+    p->guide_normal = p->guide_point = p->guide_albedo = p->guide_direct = p->sum;
     p->hits.point = rt__vall(film->position);
     p->hits.normal = p->sum;
     p->hits.left = (rt__i)zero + RT__NOWHERE;
     rt__set_out(job, p, none);
 }
 
+RT__INLINE rt_guide rt__guide_of(const rt__packet *p, int lane)
+{
+    rt_guide guide;
+    guide.normal = rt__lane(&p->guide_normal, lane);
+    guide.point = rt__lane(&p->guide_point, lane);
+    guide.albedo = rt__lane(&p->guide_albedo, lane);
+    guide.direct = guide.half = rt__lane(&p->guide_direct, lane);
+    return guide;
+}
+
 /* rt__step_pixels with rt__pixel. */
 static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int last,
-                                 rt_watch *watch, rt_vec3 *values)
+                                 rt_watch *watch, rt_vec3 *values, rt_guide *guides)
 {
     rt__packet packets[RT__FLIGHT];
     uint64_t rays = 0;
     for (int i = first; i < last;) {
         int count = 0;
         for (int from = i; count < RT__FLIGHT && from < last; from += RT__LANES)
-            rt__begin(job, sample, from, last, &packets[count++]);
+            rt__begin(job, sample, from, last, guides != NULL, &packets[count++]);
         rays += rt__trace(job, packets, count, watch);
         for (int k = 0; k < count; k++)
-            for (int lane = 0; lane < RT__LANES && i < last; lane++)
-                values[i++ - first] = rt__lane(&packets[k].sum, lane);
+            for (int lane = 0; lane < RT__LANES && i < last; lane++, i++) {
+                values[i - first] = rt__lane(&packets[k].sum, lane);
+                if (guides)
+                    guides[i - first] = rt__guide_of(&packets[k], lane);
+            }
     }
     return rays;
 }

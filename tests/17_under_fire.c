@@ -1559,7 +1559,7 @@ static void test_every_status_says_what_to_do(void **state)
 {
     (void)state;
     const char *const verbs[] = {"make ", "set ", "take ", "build ", "render again"};
-    for (int i = RT_OK; i <= RT_BAD_BACKGROUND; i++) {
+    for (int i = RT_OK; i <= RT_BAD_GUIDES; i++) {
         const char *text = rt_status_text((rt_status)i);
         const size_t length = strlen(text);
         assert_true(length > 5);
@@ -1574,7 +1574,7 @@ static void test_every_status_says_what_to_do(void **state)
         for (int k = RT_OK; k < i; k++)
             assert_string_not_equal(text, rt_status_text((rt_status)k));
     }
-    assert_non_null(rt_status_text((rt_status)(RT_BAD_BACKGROUND + 1)));
+    assert_non_null(rt_status_text((rt_status)(RT_BAD_GUIDES + 1)));
 }
 
 static void test_a_hit_has_the_number_of_its_shape(void **state)
