@@ -29,14 +29,14 @@ CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 # those that they wait for.
 export OMP_WAIT_POLICY ?= passive
 
-DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09
-HEADERS  = rt.h demos/demo.h demos/window.h demos/live.h demos/scene.h demos/explain.h demos/loops.h demos/noise.h
+DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09 demo10
+HEADERS  = rt.h demos/demo.h demos/window.h demos/live.h demos/scene.h demos/explain.h demos/loops.h demos/noise.h demos/clean.h
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 .PHONY: help deps demos test golden check bench docs starters try grade install clean $(DEMOS)
 
 help: ## this list
-	@echo '  make demo01 ... demo09  build and run a chapter; ARGS="1280 960 --samples 64"'
+	@echo '  make demo01 ... demo10  build and run a chapter; ARGS="1280 960 --samples 64"'
 	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
@@ -49,7 +49,7 @@ endif
 
 # ---------------------------------------------------------------------------- the demos
 
-demos: $(DEMOS:%=$(BUILD)/%) ## render all nine to build/, without windows
+demos: $(DEMOS:%=$(BUILD)/%) ## render all to build/, without windows
 	@for demo in $^; do $$demo --no-window $(ARGS) || exit; done
 
 $(DEMOS): %: $(BUILD)/%
@@ -69,7 +69,7 @@ $(BUILD)/demo.o: demos/demo.c $(HEADERS)
 test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)/%) ## run the tests, seconds
 	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) tests/compile/run
 
-$(BUILD)/tests/%: tests/%.c $(wildcard tests/*.h) $(HEADERS) $(wildcard demos/demo0*.c)
+$(BUILD)/tests/%: tests/%.c $(wildcard tests/*.h) $(HEADERS) $(wildcard demos/demo[0-9]*.c)
 	@.ci/deps found '$(CC)' cmocka libcjson
 	@mkdir -p $(BUILD)/tests
 	$(CC) $(FLAGS) -Wno-double-promotion $(OPENMP) -o $@ $< $(LDFLAGS) $(CMOCKA) -lm

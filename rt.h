@@ -1639,10 +1639,12 @@ RT__INLINE float rt__mixture(const rt_vec3 *pixel, const rt_vec3 *first,
 /* How much of the noisy pixels comes back, 0 to 1. If they differ from the outcome by so
  * much (means of squares), and their variance is noise, then the rest is the square of
  * the mistake; weighed against the noise as the two variances of a mean are. Noise counts
- * twice, lest chance look like a mistake. */
-RT__INLINE float rt__doubt(float differ, float noise)
+ * twice, lest chance look like a mistake, and more while there are so few samples that
+ * its variance is hardly known. */
+RT__INLINE float rt__doubt(float differ, float noise, int samples)
 {
-    const float mistake = differ > 2.0f * noise ? differ - 2.0f * noise : 0.0f;
+    const float most = (2.0f + 8.0f / (float)samples) * noise;
+    const float mistake = differ > most ? differ - most : 0.0f;
     return mistake / (mistake + noise + FLT_MIN);
 }
 
@@ -3186,6 +3188,9 @@ static inline rt_vec3 rt__part_of(const rt__finish *f, int i, rt_vec3 all, rt_ve
 static inline void rt__load_row(const rt__finish *f, int y)
 {
     const rt_image *image = f->image;
+    const size_t stride = (size_t)f->stride, plane = stride * (size_t)f->height;
+    for (size_t k = 0; k < RT__PLANES; k++)
+        memset(f->known + k * plane + (size_t)y * stride, 0, stride * sizeof(float));
     for (int x = 0; x < f->width; x++) {
         const int from = y * f->width + x, i = rt__at_row(f, y) + x;
         const rt_guide *g = &image->guides[from];
@@ -3375,7 +3380,7 @@ static inline void rt__store_row(const rt__finish *f, int y)
         const int to = y * f->width + x, i = rt__at_row(f, y) + x;
         const rt_vec3 clean = rt__get(light, i);
         const rt_vec3 back = rt_scale(rt_sub(rt__get(f->indirect, i), clean),
-                                      rt__doubt(differ[i], noise[i]));
+                                      rt__doubt(differ[i], noise[i], f->image->samples));
         float spread;
         const rt_guide *g = &f->image->guides[to];
         f->result[to] =
@@ -3431,7 +3436,6 @@ static inline rt_status rt__finish_part(const rt_image *image, rt__samples part,
         next = (float *)RT_MALLOC(RT__PLANES * plane * sizeof *next);
     if (!next)
         return RT_NO_MEMORY;
-    memset(next, 0, RT__PLANES * plane * sizeof *next);
     f.known = next;
     for (int k = 0; k < 3; k++) {
         f.normal[k] = next += plane;

@@ -1,4 +1,4 @@
-/* What the nine demos share; see demo.h. In this order: the command line, files, the state
+/* What the demos share; see demo.h. In this order: the command line, files, the state
  * of a run, progress, the window, demo_main. No ray tracing: the demo does that. */
 #define _DEFAULT_SOURCE   /* winsize */
 #define _DARWIN_C_SOURCE  /* the same on macOS */
@@ -36,7 +36,7 @@ typedef struct settings {
     float error, seconds; /* 0: not wanted */
     rt_sampler sampler;
     const char *out;
-    bool window, preview, quiet, help, explain;
+    bool window, preview, quiet, help, explain, denoise;
     long x, y; /* the pixel to explain */
 } settings;
 
@@ -50,14 +50,15 @@ static void print_help(const demo *d)
            "  --error E     stop when the estimated error is E (0.01: one per cent)\n"
            "  --time S      stop after S seconds\n"
            "  --bounces N   how often a ray is sent on (default %d%s);\n"
-           "                all: until nothing is left (chapters 7 to 9)\n"
+           "                all: until nothing is left (from chapter 7)\n"
            "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
            "  --lanes N     rays at a time: 1, or all that this build has (default: %s)\n"
            "  --sampler S   random or sobol numbers (default %s)\n"
            "  --seed N      another seed, another noise (default 0)\n"
            "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
            "                or %s.png where there is no folder build)\n"
-           "  --explain X,Y only print what happens in this pixel (chapters 7 to 9)\n"
+           "  --explain X,Y only print what happens in this pixel (from chapter 7)\n"
+           "  --denoise     finish the picture: chapter 10 (from chapter 7)\n"
            "  --no-window   only render and write\n"
            "  --preview     draw the picture in the terminal, too, as it refines\n"
            "  --quiet       print nothing but errors\n"
@@ -113,7 +114,7 @@ static bool parse_bounces(const demo *d, const char *text, long long *value)
     if (!text || strcmp(text, "all") != 0)
         return parse_number(d, "--bounces", text, 0, INT_MAX - 1, value);
     if (!d->explain)
-        fprintf(stderr, "%s: --bounces: 'all' is for chapters 7 to 9\n", d->name);
+        fprintf(stderr, "%s: --bounces: 'all' is for chapter 7 and later\n", d->name);
     *value = RT_ALL_BOUNCES;
     return d->explain;
 }
@@ -192,6 +193,8 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
                        false;
         } else if (strcmp(arg, "--no-window") == 0) {
             s->window = false;
+        } else if (strcmp(arg, "--denoise") == 0) {
+            s->denoise = true;
         } else if (strcmp(arg, "--preview") == 0) {
             s->preview = true;
         } else if (strcmp(arg, "--quiet") == 0) {
@@ -229,12 +232,20 @@ static bool parse(const demo *d, int argc, char **argv, settings *s)
     }
     if (s->explain && (!d->explain || s->x >= s->width || s->y >= s->height)) {
         if (!d->explain)
-            fprintf(stderr, "%s: --explain: chapters 7 to 9 can do that\n", d->name);
+            fprintf(stderr, "%s: --explain: chapter 7 and later can do that\n", d->name);
         else
             fprintf(stderr, "%s: --explain: %ld,%ld is not in a picture of %lld x %lld\n",
                     d->name, s->x, s->y, s->width, s->height);
         return false;
     }
+    if (s->denoise && !d->explain)
+        return fprintf(stderr, "%s: --denoise: chapter 7 and later can do that\n",
+                       d->name),
+               false;
+    if (s->denoise && s->samples == 1)
+        return fprintf(stderr, "%s: --samples: '1': --denoise takes 2 or more\n",
+                       d->name),
+               false;
     const char *dot = strrchr(s->out, '.');
     if (!dot || (strcmp(dot, ".png") != 0 && strcmp(dot, ".pfm") != 0)) {
         fprintf(stderr, "%s: --out: '%s' does not end in .png or .pfm\n", d->name,
@@ -342,6 +353,7 @@ typedef struct run {
     settings s;
     demo_view view;
     rt_image image;
+    rt_image clean; /* the same without noise, of so many samples; none: not yet there */
     unsigned char *bytes; /* the image encoded, 3 a pixel, for PNG and window */
     double started;       /* in seconds, like the others */
     double line_due;      /* when the progress line may be printed again */
@@ -387,6 +399,12 @@ static void describe(const rt_image *image, char *text, size_t size)
         snprintf(text + n, size - (size_t)n, ", error unknown");
 }
 
+/* What is to be saved. */
+static const rt_image *picture(const run *r)
+{
+    return r->s.denoise && r->clean.samples > 0 ? &r->clean : &r->image;
+}
+
 static unsigned char (*encoder(const run *r))(float value);
 
 static void encode(run *r, const rt_image *image)
@@ -421,8 +439,8 @@ static bool save_pfm(const run *r)
     unsigned char *p = file + head_size;
     for (int y = height - 1; y >= 0; y--)
         for (int i = y * width; i < (y + 1) * width; i++) {
-            const float rgb[3] = {r->image.pixels[i].x, r->image.pixels[i].y,
-                                  r->image.pixels[i].z};
+            const rt_vec3 c = picture(r)->pixels[i];
+            const float rgb[3] = {c.x, c.y, c.z};
             for (int k = 0; k < 3; k++) {
                 uint32_t bits;
                 memcpy(&bits, &rgb[k], 4);
@@ -437,7 +455,7 @@ static bool save_pfm(const run *r)
 
 static bool save_png(run *r)
 {
-    encode(r, &r->image);
+    encode(r, picture(r));
     int size = 0;
     unsigned char *file = stbi_write_png_to_mem(
         r->bytes, 3 * r->image.width, r->image.width, r->image.height, 3, &size);
@@ -464,7 +482,7 @@ static int bad_pixels(const rt_image *image)
 
 static bool save(run *r)
 {
-    const int bad = bad_pixels(&r->image);
+    const int bad = bad_pixels(picture(r));
     if (bad > 0)
         fprintf(stderr, "%s: warning: %d of %d pixels are NaN or infinite\n", r->d->name,
                 bad, r->image.width * r->image.height);
@@ -506,7 +524,7 @@ static void preview_colour(const run *r, int x, int y, int columns, int rows, in
     rt_vec3 sum = {0, 0, 0};
     for (int j = y0; j < y1; j++)
         for (int i = x0; i < x1; i++)
-            sum = rt_add(sum, r->image.pixels[j * width + i]);
+            sum = rt_add(sum, picture(r)->pixels[j * width + i]);
     const float part = 1.0f / (float)((x1 - x0) * (y1 - y0));
     rgb[0] = r->d->encode(part * sum.x);
     rgb[1] = r->d->encode(part * sum.y);
@@ -588,6 +606,51 @@ static void end_progress(const run *r)
         fprintf(stderr, "\r\033[K");
 }
 
+/* -------------------------------------------------------------------------------------
+ * A clean picture: chapter 10
+ * ------------------------------------------------------------------------------------- */
+
+/* What denoising needs, for an image of this size; false: not enough memory. */
+static bool add_guides(rt_image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    if (!image->half)
+        image->half = calloc(count, sizeof *image->half);
+    if (!image->guides)
+        image->guides = calloc(count, sizeof *image->guides);
+    return image->half && image->guides;
+}
+
+static rt_vec3 *new_pixels(int width, int height)
+{
+    return calloc((size_t)width * (size_t)height, sizeof(rt_vec3));
+}
+
+/* Finish an image into r->clean, if that has not been done yet. */
+static rt_status denoise(run *r, const rt_image *image,
+                         rt_status (*finish)(const rt_image *image, int threads,
+                                             rt_image *result))
+{
+    rt_image *clean = &r->clean;
+    if (!clean->pixels)
+        clean->pixels = new_pixels(r->image.width, r->image.height);
+    if (!clean->pixels)
+        return RT_NO_MEMORY;
+    if (clean->width == image->width && clean->samples == image->samples &&
+        clean->done == image->done && clean->rays == image->rays)
+        return RT_OK;
+    clean->width = image->width;
+    clean->height = image->height;
+    return finish(image, (int)r->s.threads, clean);
+}
+
+/* The picture that is to be saved, by the demo's own function if it has one. */
+static rt_status denoise_picture(run *r)
+{
+    r->clean.samples = 0;
+    return denoise(r, &r->image, r->d->finish ? r->d->finish : rt_denoise);
+}
+
 #include "window.h"
 
 /* Called by rt_render_pixels every few milliseconds. */
@@ -655,6 +718,64 @@ static rt_options options_of(run *r)
                         .lanes = (int)r->s.lanes};
 }
 
+static rt_status render(run *r, const rt_options *options)
+{
+    rt_image *image = &r->image;
+    if (r->d->render)
+        return r->d->render(options, image);
+    const int begun = image->samples;
+    const rt_status status = rt_render_pixels(call_pixel, r, options, image);
+    if (!r->s.denoise || image->samples == begun)
+        return status;
+    /* These pixels have no guides. rt.h looks for them, with the same numbers. */
+    rt_image same = {.width = image->width, .height = image->height};
+    rt_options again = *options;
+    again.samples = image->samples;
+    again.error = again.seconds = 0.0f;
+    again.progress = NULL;
+    same.guides = image->guides;
+    same.pixels = new_pixels(image->width, image->height);
+    same.half = new_pixels(image->width, image->height);
+    const bool good = same.pixels && same.half;
+    const rt_status looked =
+        good ? r->d->live->render(7, &r->view, &again, &same) : RT_NO_MEMORY;
+    free(same.pixels);
+    free(same.half);
+    return looked == RT_OK ? status : looked;
+}
+
+/* What denoising has done to the pixel. */
+static rt_status explain_denoising(run *r, rt_options options)
+{
+    const int i = (int)(r->s.y * r->s.width + r->s.x);
+    options.progress = NULL;
+    rt_status status = render(r, &options);
+    if (status == RT_OK)
+        status = denoise_picture(r);
+    if (status != RT_OK)
+        return status;
+    const rt_guide *g = &r->image.guides[i];
+    const rt_vec3 noisy = r->image.pixels[i], clean = r->clean.pixels[i];
+    const struct {
+        const char *name;
+        rt_vec3 value;
+    } lines[] = {
+        {"normal", g->normal},
+        {"point", g->point},
+        {"albedo", g->albedo},
+        {"direct light, kept", g->direct},
+        {"light of others, noisy", rt_sub(noisy, g->direct)},
+        {"light of others, finished", rt_sub(clean, g->direct)},
+        {"pixel, noisy", noisy},
+        {"pixel, finished", clean},
+    };
+    printf("denoising, with the guides of all samples\n");
+    for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++)
+        printf("  %-26s (%.6g, %.6g, %.6g)\n", lines[k].name, (double)lines[k].value.x,
+               (double)lines[k].value.y, (double)lines[k].value.z);
+    return RT_OK;
+}
+
 static int explain(run *r)
 {
     rt_options options = options_of(r);
@@ -664,7 +785,9 @@ static int explain(run *r)
         printf("%s: pixel %ld,%ld of %lld x %lld, %d sample%s, %s\n", r->d->name, r->s.x,
                r->s.y, r->s.width, r->s.height, options.samples, plural(options.samples),
                bounces_in_words(r));
-    const rt_status status = r->d->explain(&options, &r->image, (int)r->s.x, (int)r->s.y);
+    rt_status status = r->d->explain(&options, &r->image, (int)r->s.x, (int)r->s.y);
+    if (status == RT_OK && r->s.denoise)
+        status = explain_denoising(r, options);
     if (status != RT_OK)
         fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status));
     return status == RT_OK ? DONE : FAILED;
@@ -676,14 +799,25 @@ static bool finish(run *r, rt_status status, double took)
     end_progress(r);
     if (status != RT_OK && status != RT_CANCELLED)
         return fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status)), false;
+    double finishing = demo_seconds();
+    if (r->s.denoise && r->image.samples >= 2)
+        status = denoise_picture(r) == RT_OK ? status : RT_NO_MEMORY;
+    finishing = demo_seconds() - finishing;
+    if (status == RT_NO_MEMORY)
+        return fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status)), false;
+    if (r->s.preview && !r->s.quiet && r->clean.samples > 0)
+        print_preview(r);
     if (!save(r))
         return false;
     if (!r->s.quiet) {
         char result[100];
         describe(&r->image, result, sizeof result);
-        printf("%s: %.2f s, %s, %.1f million rays per second, wrote %s%s\n", r->d->name,
-               took, result, (double)r->image.rays / took * 1e-6, r->s.out,
-               status == RT_CANCELLED ? " (interrupted)" : "");
+        printf("%s: %.2f s, %s, %.1f million rays per second, ", r->d->name, took, result,
+               (double)r->image.rays / took * 1e-6);
+        if (r->clean.samples > 0 && r->s.denoise)
+            printf("finished in %.2f s: error at most %.2f %%, ", finishing,
+                   100.0 * (double)rt_denoised_error(&r->image, (int)r->s.threads));
+        printf("wrote %s%s\n", r->s.out, status == RT_CANCELLED ? " (interrupted)" : "");
     }
     fflush(stdout);
     return true;
@@ -699,9 +833,7 @@ static int render_and_save(run *r)
         good = run_window(r);
     } else {
         const rt_options options = options_of(r);
-        const rt_status status =
-            r->d->render ? r->d->render(&options, &r->image)
-                         : rt_render_pixels(call_pixel, r, &options, &r->image);
+        const rt_status status = render(r, &options);
         good = finish(r, status, demo_seconds() - r->started);
     }
     return !good ? FAILED : interrupted ? INTERRUPTED : DONE;
@@ -741,6 +873,7 @@ int demo_main(int argc, char **argv, const demo *d)
                    .height = 480,
                    .bounces = d->bounces,
                    .sampler = d->sobol ? RT_SOBOL : RT_RANDOM,
+                   .denoise = d->denoise,
                    .out = out,
                    .window = true}};
     if (!parse(d, argc, argv, &r.s))
@@ -771,14 +904,15 @@ int demo_main(int argc, char **argv, const demo *d)
     r.view = (demo_view){r.image.width, r.image.height, (int)r.s.bounces};
     r.image.pixels = calloc(count, sizeof *r.image.pixels);
     r.bytes = malloc(count * 3);
+    const bool guided = !r.s.denoise || add_guides(&r.image);
     const bool estimate = d->estimate || r.s.error > 0.0f;
-    if (estimate)
+    if (estimate && !r.image.half)
         r.image.half = calloc(count, sizeof *r.image.half);
     const bool many = r.s.samples == 0 || r.s.samples > 1000;
     if (many) /* their means need more digits; half may come later */
         r.image.rest = calloc(2 * count, sizeof *r.image.rest);
-    const bool good = r.image.pixels && r.bytes && (r.image.half || !estimate) &&
-                      (r.image.rest || !many);
+    const bool good = r.image.pixels && r.bytes && guided &&
+                      (r.image.half || !estimate) && (r.image.rest || !many);
     int result = FAILED;
     if (good && r.s.explain) {
         result = explain(&r);
@@ -805,6 +939,8 @@ int demo_main(int argc, char **argv, const demo *d)
     free(r.image.pixels);
     free(r.image.half);
     free(r.image.rest);
+    free(r.image.guides);
+    free(r.clean.pixels);
     free(r.bytes);
     if (ferror(stdout) || fflush(stdout) != 0) {
         fprintf(stderr, "%s: cannot write to standard output\n", d->name);

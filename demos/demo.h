@@ -1,4 +1,4 @@
-/* What the nine demos share: command line, window, progress, files. No ray tracing here.
+/* What the demos share: command line, window, progress, files. No ray tracing here.
  *
  * A demo supplies the colour of one point of the film, or renders the whole image, and
  * demo_main does the rest. */
@@ -68,6 +68,9 @@ typedef struct demo {
     /* Or, in its place: add samples to the image, as rt_render does. */
     rt_status (*render)(const rt_options *options, rt_image *image);
 
+    /* For --denoise: what finishes the picture; NULL: rt_denoise. */
+    rt_status (*finish)(const rt_image *image, int threads, rt_image *result);
+
     /* NULL, or what the demo measures and prints before its picture, unless --quiet. */
     void (*measure)(int threads);
 
@@ -83,6 +86,7 @@ typedef struct demo {
     int bounces;   /* likewise; 0: this chapter has no bounces yet */
     bool sobol;    /* likewise: chapter 9's numbers; false: chapter 7's random ones */
     bool estimate; /* say how large the error is, even if --error does not ask */
+    bool denoise;  /* likewise, finish the picture */
 } demo;
 
 /* For encode: the byte in proportion to the light, and the byte that a screen wants. */

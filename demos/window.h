@@ -21,15 +21,16 @@ static const char *const window_help[] = {
     "v           the plan from above, or from the side",
     "z           a magnifying glass, with the numbers of the pixel",
     "+  -        samples        ]  [   bounces",
+    "d           without noise (chapter 7);  b (hold): as it was",
     "g  gamma    l  numbers     p  packets     t  threads",
     "r           all as at first",
     "s           save the picture, and print the camera as C code",
     "h           these lines            q, Esc   the end",
 };
 
-enum { BEFORE, ONE_SAMPLE, BY_RT_H, COMPARISONS };
+enum { BEFORE, ONE_SAMPLE, BY_RT_H, NOISY, COMPARISONS };
 static const char *const comparison_names[COMPARISONS] = {
-    "the chapter before", "one sample", "rt.h's own function"};
+    "the chapter before", "one sample", "rt.h's own function", "with its noise"};
 
 enum { MOST_LINES = 1000 };
 
@@ -51,7 +52,7 @@ typedef struct window {
     bool plain;     /* bytes without gamma */
     int samples;    /* that the picture is to have */
     double moving;  /* until then only drafts */
-    int shrink;     /* the draft is so many times smaller */
+    int shrink;     /* the draft is so many halves smaller, 2 to 8 */
     double rendered, refining; /* seconds, for the rays of the image; since when */
     bool help, hold, glass;
     int comparison;
@@ -61,7 +62,9 @@ typedef struct window {
     bool dragged;           /* since the button went down: it will be no click */
     float down_x, down_y;   /* where that was, on the screen */
     float mouse_x, mouse_y; /* in the picture, in its pixels */
-    int drafts;             /* so far, and for so many seconds */
+    float clean_error;      /* of the picture of so many rays, without noise */
+    uint64_t clean_rays;
+    int drafts; /* so far, and for so many seconds */
     double drafts_took;
     double polled, slowest; /* the longest time between two looks at the keyboard */
 } window;
@@ -73,13 +76,27 @@ typedef struct window {
 /* The stage in which the demo's own function stands: 5 for demo05, 7 from demo07 on. */
 static int own_stage(const run *r)
 {
-    const char *chapter = strpbrk(r->d->name, "123456");
-    return chapter ? *chapter - '0' : 7;
+    const int chapter = atoi(r->d->name + strcspn(r->d->name, "0123456789"));
+    return chapter >= 1 && chapter < 7 ? chapter : 7;
 }
 
+/* Is noise taken out of the picture that is seen? */
+static bool is_denoised(const run *r)
+{
+    return r->s.denoise && r->d->live && r->win->stage == 7 && !r->win->hold;
+}
+
+/* A demo's own pixels have no guides: where they are wanted, rt.h renders. */
 static bool is_own(const run *r, int stage)
 {
-    return !r->d->live || stage == own_stage(r);
+    return !r->d->live ||
+           (stage == own_stage(r) && !(r->d->pixel && stage == 7 && r->s.denoise));
+}
+
+/* Is another picture rendered, to compare with? Noise has only to be left in. */
+static bool shows_other(const run *r)
+{
+    return r->win->hold && r->win->comparison != NOISY;
 }
 
 static int wanted_samples(const run *r)
@@ -104,6 +121,8 @@ static void forget(rt_image *image)
     memset(image->pixels, 0, count * sizeof *image->pixels);
     if (image->half)
         memset(image->half, 0, count * sizeof *image->half);
+    if (image->guides)
+        memset(image->guides, 0, count * sizeof *image->guides);
     rt_image_clear(image);
 }
 
@@ -119,6 +138,8 @@ static void begin_anew(run *r)
     const size_t count = (size_t)r->image.width * (size_t)r->image.height;
     if (!r->image.half) /* from here on, say how large the error is */
         r->image.half = calloc(count, sizeof *r->image.half);
+    if (r->s.denoise && !add_guides(&r->image))
+        r->s.denoise = false;
     forget(&r->image);
     forget(&w->other);
     w->rendered = 0.0;
@@ -327,6 +348,23 @@ static void describe_pixel(const run *r, const rt_image *shown, char *text, size
              (double)c.y, (double)c.z, b[0], b[1], b[2]);
 }
 
+static bool is_draft(const run *r)
+{
+    const window *w = r->win;
+    const rt_image *image = shows_other(r) ? &w->other : &r->image;
+    return w->moving > 0.0 || (w->disturbed && image->samples == 0);
+}
+
+/* It takes a while, so once for a picture. */
+static float clean_error(run *r)
+{
+    window *w = r->win;
+    if (w->clean_rays != r->image.rays)
+        w->clean_error = rt_denoised_error(&r->image, (int)r->s.threads);
+    w->clean_rays = r->image.rays;
+    return w->clean_error;
+}
+
 static void set_title(run *r, const rt_image *shown, const char *pixel)
 {
     static const char *const names[] = {"",        "sphere", "walls",  "cube",
@@ -342,13 +380,18 @@ static void set_title(run *r, const rt_image *shown, const char *pixel)
                 is_own(r, w->stage) ? " (the demo's)" : "");
     if (w->hold)
         fprintf(t, "held: %s, ", comparison_names[w->comparison]);
-    if (shown == &w->draft) {
-        fprintf(t, "direct light, %.0f a second", w->drafts / fmax(w->drafts_took, 1e-9));
+    if (is_draft(r)) {
+        fprintf(t, "%s, %.0f a second", is_denoised(r) ? "2 samples" : "direct light",
+                w->drafts / fmax(w->drafts_took, 1e-9));
     } else {
         char result[100];
         const double since = w->refining > 0.0 ? demo_seconds() - w->refining : 0.0;
-        describe(shown, result, sizeof result);
+        describe(shown == &r->clean ? &r->image : shown, result, sizeof result);
         fprintf(t, "%s", result);
+        if (shown == &r->clean)
+            fprintf(t, ", finished");
+        if (shown == &r->clean && shown->samples >= w->samples)
+            fprintf(t, ": at most %.2f %%", 100.0 * (double)clean_error(r));
         if (shown->samples < w->samples && !w->hold)
             fprintf(t, " (%d wanted)", w->samples);
         fprintf(t, ", %.1f Mrays/s",
@@ -364,12 +407,15 @@ static void set_title(run *r, const rt_image *shown, const char *pixel)
     SDL_SetWindowTitle(w->window, title);
 }
 
-static const rt_image *shown_image(const run *r)
+static const rt_image *shown_image(run *r)
 {
-    const window *w = r->win;
-    const rt_image *image = w->hold ? &w->other : &r->image;
-    const bool nothing_yet = w->disturbed && image->samples == 0;
-    return w->moving > 0.0 || nothing_yet ? &w->draft : image;
+    const rt_image *image = is_draft(r)      ? &r->win->draft
+                            : shows_other(r) ? &r->win->other
+                                             : &r->image;
+    if (is_denoised(r) && image->guides && image->samples >= 2 &&
+        denoise(r, image, rt_denoise) == RT_OK)
+        return &r->clean;
+    return image;
 }
 
 static void draw(run *r)
@@ -530,7 +576,7 @@ static bool change_by_key(run *r, SDL_Keycode key)
         w->stage = own_stage(r);
         w->samples = wanted_samples(r);
         w->plain = w->glass = w->help = w->side = false;
-        w->comparison = BEFORE;
+        w->comparison = r->s.denoise ? NOISY : BEFORE;
         break;
     default: return false;
     }
@@ -568,6 +614,15 @@ static void handle_key(run *r, SDL_Keycode key, bool repeated)
     if (!r->d->live)
         return;
     switch (key) {
+    case SDLK_d:
+        if (w->stage != 7)
+            return;
+        r->s.denoise = !r->s.denoise;
+        w->comparison = r->s.denoise ? NOISY : BEFORE;
+        if (!r->image.guides)
+            change(r);
+        w->stop = true;
+        return;
     case SDLK_v: w->side = !w->side; return;
     case SDLK_i:
         if (w->inspect)
@@ -696,16 +751,25 @@ static void poll_events(run *r)
         save_view(r);
 }
 
+/* Draw, and not again before so many times as long: 20 are 5 % of the time. */
+static void draw_in_time(run *r, double pause)
+{
+    const double now = demo_seconds();
+    draw(r);
+    const double took = demo_seconds() - now;
+    r->draw_due = now + took + (pause * took > 0.033 ? pause * took : 0.033);
+}
+
 /* Every few milliseconds, while no thread writes to the image: so the window answers, and the
  * image may be read. False: stop. */
 static bool window_progress(run *r)
 {
     poll_events(r);
-    const double now = demo_seconds();
-    if (!r->closed && !r->win->stop && now >= r->draw_due) { /* 30 a second, 5 % of the */
-        draw(r);                                             /* time at most */
-        const double took = demo_seconds() - now;
-        r->draw_due = now + took + (20.0 * took > 0.033 ? 20.0 * took : 0.033);
+    if (!r->closed && !r->win->stop && demo_seconds() >= r->draw_due) {
+        if (is_denoised(r)) /* on all cores, so not while they render */
+            r->win->stop = true;
+        else
+            draw_in_time(r, 20.0);
     }
     return !r->closed && !interrupted && !r->win->stop;
 }
@@ -733,6 +797,8 @@ static void close_window(run *r)
     SDL_DestroyRenderer(w->renderer);
     SDL_DestroyWindow(w->window);
     free(w->draft.pixels);
+    free(w->draft.half);
+    free(w->draft.guides);
     free(w->other.pixels);
     r->win = NULL;
     SDL_Quit();
@@ -769,8 +835,9 @@ static void open_window(run *r)
     const char *why = "no display";
     r->win = w;
     w->stage = own_stage(r);
-    w->shrink = 1;
+    w->shrink = 2;
     w->samples = wanted_samples(r);
+    w->comparison = r->s.denoise ? NOISY : BEFORE;
     w->first = r->s;
     if (have_display()) {
         SDL_Rect desk = {0, 0, width, height};
@@ -817,34 +884,40 @@ static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
     return r->d->pixel(&r->view, x, y, rng);
 }
 
-/* Direct light, at once; smaller, where that takes long. */
+/* Direct light, or two samples without their noise, at once; smaller, where that takes
+ * long. */
 static void draw_draft(run *r)
 {
     window *w = r->win;
     const double start = demo_seconds();
     rt_image *image = &w->draft;
-    image->width = (r->image.width + w->shrink - 1) / w->shrink;
-    image->height = (r->image.height + w->shrink - 1) / w->shrink;
+    image->width = (2 * r->image.width - 1) / w->shrink + 1;
+    image->height = (2 * r->image.height - 1) / w->shrink + 1;
+    const bool clean = is_denoised(r) && add_guides(image);
     forget(image);
     run small = *r;
     small.view.width = image->width;
     small.view.height = image->height;
     rt_options options = options_of(r);
-    options.samples = 1;
+    options.samples = clean ? 2 : 1;
     options.error = options.seconds = 0.0f;
     options.progress = NULL;
     const int stage = w->stage - (w->hold && w->comparison == BEFORE && w->stage > 1);
-    if (is_own(r, stage) && r->d->pixel && stage < 7)
+    if (clean)
+        r->d->live->render(stage, &small.view, &options, image);
+    else if (is_own(r, stage) && r->d->pixel && stage < 7)
         rt_render_pixels(call_pixel, &small, &options, image);
     else
         r->d->live->draft(stage, &small.view, &options, image);
     poll_events(r);
     draw(r);
     const double took = demo_seconds() - start;
-    if (took > 0.040 && w->shrink < 4)
-        w->shrink *= 2;
-    else if (took < 0.008 && w->shrink > 1)
-        w->shrink /= 2;
+    /* not longer than that, and as large as that allows */
+    const double most = clean ? 0.060 : 0.040, larger = (w->shrink - 1.0) / w->shrink;
+    if (took > most && w->shrink < 8)
+        w->shrink++;
+    else if (took < 0.95 * most * larger * larger && w->shrink > 2)
+        w->shrink--;
     w->drafts++;
     w->drafts_took += took;
 }
@@ -853,7 +926,7 @@ static void draw_draft(run *r)
 static rt_status refine(run *r)
 {
     window *w = r->win;
-    rt_image *image = w->hold ? &w->other : &r->image;
+    rt_image *image = shows_other(r) ? &w->other : &r->image;
     rt_options options = options_of(r);
     int stage = w->stage;
     if (w->disturbed)
@@ -888,7 +961,7 @@ static bool run_window(run *r)
         w->stop = false;
         poll_events(r);
         const double now = demo_seconds();
-        const rt_image *image = w->hold ? &w->other : &r->image;
+        const rt_image *image = shows_other(r) ? &w->other : &r->image;
         const int wanted = w->hold && w->comparison == ONE_SAMPLE ? 1 : w->samples;
         if (w->changed) {
             begin_anew(r);
@@ -900,19 +973,23 @@ static bool run_window(run *r)
             else
                 w->moving = 0.0;
             w->polled = 0.0;
-        } else if (w->disturbed || w->hold ? image->samples < wanted : !w->finished) {
+        } else if (w->disturbed || shows_other(r) ? image->samples < wanted
+                                                  : !w->finished) {
             const rt_status status = refine(r);
             if (status != RT_OK && status != RT_CANCELLED) {
                 finish(r, status, 0.0);
                 return false;
             }
-            if (!w->disturbed && !w->hold && (status == RT_OK || interrupted)) {
+            if (is_denoised(r))
+                draw_in_time(r, 4.0);
+            if (!w->disturbed && !shows_other(r) && (status == RT_OK || interrupted)) {
                 w->finished = true;
                 good = finish(r, status, demo_seconds() - started);
                 w->samples = r->image.samples;
                 w->polled = 0.0; /* it was writing the file */
             }
-            r->draw_due = 0.0;
+            if (!is_denoised(r) || status == RT_OK)
+                r->draw_due = 0.0;
         } else {
             if (r->draw_due == 0.0)
                 draw(r);

@@ -1,0 +1,104 @@
+/* Demo 10: a clean picture from few rays.
+ *
+ * Before  64 samples of each pixel, each for itself.
+ * Now     16 samples, and neighbours that help each other: a filter that knows, from the
+ *         camera rays, who sees the same surface.
+ * Run     make demo10                                     (or ARGS="--samples 4") */
+#include "clean.h"
+#include "live.h"
+
+/* How unlike two pixels are by what they see: 0 in one plane, 1 when better not asked. */
+static float unlike(const clean_pixel *a, const clean_pixel *b)
+{
+    const rt_vec3 turned = rt_sub(a->normal, b->normal), way = rt_sub(b->point, a->point);
+    const float off_a = rt_dot(a->normal, way), off_b = rt_dot(b->normal, way);
+    return 20 * rt_dot(turned, turned) +
+           50 * (off_a * off_a + off_b * off_b) / (rt_dot(way, way) + FLT_MIN);
+}
+
+/* And by their light: could noise explain the difference? */
+static float unlike_light(const clean_pixel *a, const clean_pixel *b)
+{
+    const float d = mean_of(a->light) - mean_of(b->light);
+    return d * d / (36 * (a->variance + b->variance) + FLT_MIN);
+}
+
+/* How much such a pixel has to say: nearly e^-x. */
+static float say(float x)
+{
+    const float root = 1 / (1 + x / 4);
+    return root * root * root * root;
+}
+
+/* The mean over 5 x 5 pixels, so many apart, of those that see much the same. */
+static clean_pixel smooth(const clean_picture *p, int x, int y, int step)
+{
+    static const float spline[5] = {1 / 16.0f, 4 / 16.0f, 6 / 16.0f, 4 / 16.0f,
+                                    1 / 16.0f};
+    clean_pixel here = *pixel_at(p, x, y);
+    const clean_pixel self = here;
+    rt_vec3 light = {0, 0, 0};
+    float variance = 0, weights = 0;
+    for (int dy = -2; dy <= 2; dy++)
+        for (int dx = -2; dx <= 2; dx++) {
+            const int X = x + dx * step, Y = y + dy * step;
+            if (!is_inside(p, X, Y) || !pixel_at(p, X, Y)->known)
+                continue;
+            const clean_pixel *there = pixel_at(p, X, Y);
+            const float weight = spline[dx + 2] * spline[dy + 2] *
+                                 say(unlike(&self, there) + unlike_light(&self, there));
+            light = rt_add(light, rt_scale(there->light, weight));
+            variance += weight * weight * there->variance;
+            weights += weight;
+        }
+    const float w = 1 / (weights + FLT_MIN);
+    here.light = rt_scale(light, w);
+    here.variance = variance * w * w;
+    return here;
+}
+
+static rt_status finish(const rt_image *image, int threads, rt_image *result)
+{
+    clean_memory m;
+    const int width = image->width, height = image->height;
+    const bool good = get_memory(&m, width, height);
+    if (good) {
+        take_all_apart(image, &m.now, m.numbers);
+        for (int step = 1; step <= 8; step *= 2) {
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(rt_thread_count(threads))
+#endif
+            for (int i = 0; i < width * height; i++)
+                m.next.pixels[i] = smooth(&m.now, i % width, i / width, step);
+            const clean_picture old = m.now;
+            m.now = m.next;
+            m.next = old;
+        }
+        put_together(image, &m.now, unlike, m.numbers, m.more, result);
+    }
+    free_memory(&m);
+    (void)threads;
+    return good ? RT_OK : RT_NO_MEMORY;
+}
+
+static rt_status render(const rt_options *options, rt_image *image)
+{
+    return rt_render(&scene_indirect, &room_camera, options, image);
+}
+
+int main(int argc, char **argv)
+{
+    return demo_main(argc, argv,
+                     &(demo){.name = "demo10",
+                             .title = "10. A clean picture from few rays",
+                             .render = render,
+                             .finish = finish,
+                             .explain = explain_indirect,
+                             .live = &live_room,
+                             .encode = demo_gamma,
+                             .samples = 16,
+                             .bounces = 5,
+                             .sobol = true,
+                             .estimate = true,
+                             .denoise = true});
+}
