@@ -21,6 +21,10 @@ typedef struct clean_picture {
     clean_pixel *pixels;
 } clean_picture;
 
+/* What demo 10 has by hand. */
+typedef float unlike_function(const clean_pixel *a, const clean_pixel *b);
+typedef clean_pixel smooth_function(const clean_picture *p, int x, int y, int step);
+
 static inline bool is_inside(const clean_picture *p, int x, int y)
 {
     return x >= 0 && y >= 0 && x < p->width && y < p->height;
@@ -115,7 +119,7 @@ static inline float mixture(const clean_pixel *pixel, const clean_pixel *first,
 /* What arrives by way of others; at an edge also as the four pairs of opposite neighbours
  * have it, each with the weight that its guides deserve. */
 static inline rt_vec3 mended(const clean_picture *p, int x, int y,
-                             float (*unlike)(const clean_pixel *, const clean_pixel *))
+                             unlike_function *unlike)
 {
     static const int dx[4] = {1, 0, 1, -1}, dy[4] = {0, 1, 1, 1};
     const clean_pixel *here = pixel_at(p, x, y);
@@ -162,8 +166,8 @@ static inline float doubt(float differ, float noise, int samples)
 
 /* The edges, the doubt, and the direct light again. */
 static inline void put_together(const rt_image *image, const clean_picture *p,
-                                float (*unlike)(const clean_pixel *, const clean_pixel *),
-                                float *differ, float *noise, rt_image *result)
+                                unlike_function *unlike, float *differ, float *noise,
+                                rt_image *result)
 {
     for (int i = 0; i < p->width * p->height; i++) {
         const clean_pixel *pixel = &p->pixels[i];
@@ -189,30 +193,38 @@ static inline void put_together(const rt_image *image, const clean_picture *p,
     result->rays = image->rays;
 }
 
-/* Two pictures and two arrays of numbers; false: not enough memory. */
-typedef struct clean_memory {
-    clean_picture now, next;
-    float *numbers, *more;
-} clean_memory;
+/* ---- all of it ------------------------------------------------------------------------- */
 
-static inline bool get_memory(clean_memory *m, int width, int height)
+static inline rt_status clean(const rt_image *image, int threads, unlike_function *unlike,
+                              smooth_function *smooth, rt_image *result)
 {
-    const size_t count = (size_t)width * (size_t)height;
-    m->now.width = m->next.width = width;
-    m->now.height = m->next.height = height;
-    m->now.pixels = malloc(count * sizeof(clean_pixel));
-    m->next.pixels = malloc(count * sizeof(clean_pixel));
-    m->numbers = malloc(count * sizeof(float));
-    m->more = malloc(count * sizeof(float));
-    return m->now.pixels && m->next.pixels && m->numbers && m->more;
-}
-
-static inline void free_memory(clean_memory *m)
-{
-    free(m->now.pixels);
-    free(m->next.pixels);
-    free(m->numbers);
-    free(m->more);
+    const int width = image->width, count = width * image->height;
+    clean_picture now = {width, image->height, calloc((size_t)count, sizeof *now.pixels)};
+    clean_picture next = {width, image->height,
+                          calloc((size_t)count, sizeof *now.pixels)};
+    float *numbers = calloc((size_t)count, sizeof *numbers);
+    float *more = calloc((size_t)count, sizeof *more);
+    const bool good = now.pixels && next.pixels && numbers && more;
+    if (good)
+        take_all_apart(image, &now, numbers);
+    for (int step = 1; good && step <= 8; step *= 2) {
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(rt_thread_count(threads))
+#endif
+        for (int i = 0; i < count; i++)
+            next.pixels[i] = smooth(&now, i % width, i / width, step);
+        const clean_picture before = now;
+        now = next;
+        next = before;
+    }
+    if (good)
+        put_together(image, &now, unlike, numbers, more, result);
+    free(now.pixels);
+    free(next.pixels);
+    free(numbers);
+    free(more);
+    (void)threads;
+    return good ? RT_OK : RT_NO_MEMORY;
 }
 
 #endif

@@ -16,16 +16,12 @@ static float unlike(const clean_pixel *a, const clean_pixel *b)
            50 * (off_a * off_a + off_b * off_b) / (rt_dot(way, way) + FLT_MIN);
 }
 
-/* And by their light: could noise explain the difference? */
-static float unlike_light(const clean_pixel *a, const clean_pixel *b)
+/* How much b has to say to a: about e^-x. In x goes, too, by how much their light differs, next
+ * to what noise can explain: six deviations. */
+static float say(const clean_pixel *a, const clean_pixel *b)
 {
     const float d = mean_of(a->light) - mean_of(b->light);
-    return d * d / (36 * (a->variance + b->variance) + FLT_MIN);
-}
-
-/* How much such a pixel has to say: nearly e^-x. */
-static float say(float x)
-{
+    const float x = unlike(a, b) + d * d / (36 * (a->variance + b->variance) + FLT_MIN);
     const float root = 1 / (1 + x / 4);
     return root * root * root * root;
 }
@@ -33,10 +29,9 @@ static float say(float x)
 /* The mean over 5 x 5 pixels, so many apart, of those that see much the same. */
 static clean_pixel smooth(const clean_picture *p, int x, int y, int step)
 {
-    static const float spline[5] = {1 / 16.0f, 4 / 16.0f, 6 / 16.0f, 4 / 16.0f,
-                                    1 / 16.0f};
-    clean_pixel here = *pixel_at(p, x, y);
-    const clean_pixel self = here;
+    static const float spline[5] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};
+    const clean_pixel *here = pixel_at(p, x, y);
+    clean_pixel result = *here;
     rt_vec3 light = {0, 0, 0};
     float variance = 0, weights = 0;
     for (int dy = -2; dy <= 2; dy++)
@@ -45,40 +40,20 @@ static clean_pixel smooth(const clean_picture *p, int x, int y, int step)
             if (!is_inside(p, X, Y) || !pixel_at(p, X, Y)->known)
                 continue;
             const clean_pixel *there = pixel_at(p, X, Y);
-            const float weight = spline[dx + 2] * spline[dy + 2] *
-                                 say(unlike(&self, there) + unlike_light(&self, there));
+            const float weight = spline[dx + 2] * spline[dy + 2] * say(here, there);
             light = rt_add(light, rt_scale(there->light, weight));
             variance += weight * weight * there->variance;
             weights += weight;
         }
     const float w = 1 / (weights + FLT_MIN);
-    here.light = rt_scale(light, w);
-    here.variance = variance * w * w;
-    return here;
+    result.light = rt_scale(light, w);
+    result.variance = variance * w * w;
+    return result;
 }
 
 static rt_status finish(const rt_image *image, int threads, rt_image *result)
 {
-    clean_memory m;
-    const int width = image->width, height = image->height;
-    const bool good = get_memory(&m, width, height);
-    if (good) {
-        take_all_apart(image, &m.now, m.numbers);
-        for (int step = 1; step <= 8; step *= 2) {
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(rt_thread_count(threads))
-#endif
-            for (int i = 0; i < width * height; i++)
-                m.next.pixels[i] = smooth(&m.now, i % width, i / width, step);
-            const clean_picture old = m.now;
-            m.now = m.next;
-            m.next = old;
-        }
-        put_together(image, &m.now, unlike, m.numbers, m.more, result);
-    }
-    free_memory(&m);
-    (void)threads;
-    return good ? RT_OK : RT_NO_MEMORY;
+    return clean(image, threads, unlike, smooth, result);
 }
 
 static rt_status render(const rt_options *options, rt_image *image)
@@ -99,6 +74,5 @@ int main(int argc, char **argv)
                              .samples = 16,
                              .bounces = 5,
                              .sobol = true,
-                             .estimate = true,
                              .denoise = true});
 }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # What demo N has that the demo before it had not, in Markdown: docs/changed.sh N SCENES, where
 # SCENES is what docs/numbers/scenes.c prints.
-new=$(ls demos/demo0"$1"_*.c) old=$(ls demos/demo0$(($1 - 1))_*.c)
+new=$(ls demos/demo$(printf %02d "$1")_*.c) old=$(ls demos/demo$(printf %02d $(($1 - 1)))_*.c)
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 export LC_ALL=C

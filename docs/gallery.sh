@@ -23,7 +23,8 @@ render() { # NAME SUBMISSION OPTIONS
 }
 
 red() { # NAME FILE: which test of its chapter goes red on it, the first
-    test=$(basename "$(ls tests/0"${1%%-*}"_*.c)" .c)
+    case $1 in 10-*) test=18 ;; *) test=0${1%%-*} ;; esac
+    test=$(basename "$(ls tests/"$test"_*.c)" .c)
     $cc -std=c99 -O1 -ffp-contract=off -w -I. -include "$2" -o "$work/$1.test" "tests/$test.c" \
         $(pkg-config --cflags --libs cmocka libcjson) -lm || return
     timeout 60 "$work/$1.test" 2>&1 |
@@ -35,8 +36,7 @@ one() { # FILE: render it, and write its part of the page
     render "$name" "$1" "$options" || exit 1
     test=$(red "$name" "$1")
     [ -n "$test" ] || { echo "$1: no test goes red" >&2; exit 1; }
-    right=right
-    [ -z "$options" ] || right=right-direct
+    case $options in '') right=right ;; *denoise*) right=right-clean ;; *) right=right-direct ;; esac
     title=$(sed -n '1s/^\/\* //p' "$1")
     cat >"$work/$name.md" <<END
 
@@ -52,7 +52,8 @@ END
 }
 
 echo '#include "rt.h"' >"$work/none.c"
-render right "$work/none.c" "" && render right-direct "$work/none.c" "--bounces 0" || exit 1
+render right "$work/none.c" "" && render right-direct "$work/none.c" "--bounces 0" &&
+    render right-clean "$work/none.c" --denoise || exit 1
 for file in docs/mistakes/*.c; do
     one "$file" &
     [ "$(jobs -p | wc -l)" -lt 2 ] || wait
@@ -64,10 +65,10 @@ done
 
 {
     sed '/^<!-- gallery -->$/q' "$page"
-    for file in docs/mistakes/*.c; do
+    for file in $(ls docs/mistakes/*.c | sort -V); do
         name=$(basename "$file" .c) n=${name%%-*}
         [ "$n" = "$last" ] || printf '\n## %s\n' \
-            "$(sed -n '1s/^# //p' docs/0"$n"-*.md | sed "s/^\([0-9]\)\. /Chapter \1: /")"
+            "$(sed -n '1s/^# //p' "$(ls docs/*"$n"-*.md)" | sed "s/^\([0-9]*\)\. /Chapter \1: /")"
         last=$n
         cat "$work/$name.md"
     done

@@ -45,7 +45,8 @@ static uint64_t hash_float(uint64_t hash, float value)
 /* The demo's main calls this. */
 int demo_main(int argc, char **argv, const demo *d)
 {
-    static rt_vec3 pixels[W * H], half[W * H];
+    static rt_vec3 pixels[W * H], half[W * H], clean[W * H], by_hand[W * H];
+    static rt_guide guides[W * H];
     const demo_view view = {W, H, d->bounces};
     uint64_t first = 0;
     (void)argc;
@@ -58,12 +59,22 @@ int demo_main(int argc, char **argv, const demo *d)
                                     .threads = threads,
                                     .sampler = d->sobol ? RT_SOBOL : RT_RANDOM,
                                     .lanes = rt_lane_count(2 * threads)}; /* 1 to 16 */
-        image.half = d->estimate ? half : NULL;
+        image.half = d->estimate || d->finish ? half : NULL;
+        image.guides = d->finish ? guides : NULL;
         const rt_status status =
             d->render ? d->render(&options, &image)
                       : rt_render_pixels(pixel_of_the_demo, &view, &options, &image);
         if (status != RT_OK)
             return 1;
+        if (d->finish) { /* plainly, and sixteen pixels at a time */
+            rt_image result = {.width = W, .height = H, .pixels = clean};
+            rt_image plain = {.width = W, .height = H, .pixels = by_hand};
+            if (rt_denoise(&image, threads, &result) != RT_OK ||
+                d->finish(&image, threads, &plain) != RT_OK ||
+                memcmp(clean, by_hand, sizeof clean) != 0)
+                return fprintf(stderr, "%s: not as by hand\n", d->name), 1;
+            memcpy(pixels, clean, sizeof pixels);
+        }
         uint64_t hash = 14695981039346656037u;
         for (int i = 0; i < W * H; i++) {
             hash = hash_float(hash, pixels[i].x);

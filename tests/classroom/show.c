@@ -10,6 +10,11 @@ static rt_status render(const rt_options *options, rt_image *image)
     return rt_render(&scene_indirect, &room_camera, options, image);
 }
 
+static rt_status finish(const rt_image *image, int threads, rt_image *result)
+{
+    return rt_denoise(image, threads, result);
+}
+
 static unsigned char encode(float value)
 {
     return rt_encode(value, 2.2);
@@ -33,6 +38,8 @@ int main(int argc, char **argv)
                              .title = "Your own routine",
                              .render = render,
                              .live = &live,
+                             .finish = finish,
+                             .explain = explain_indirect,
                              .encode = encode,
                              .samples = 16,
                              .bounces = 5});
