@@ -176,6 +176,27 @@ static void test_a_look_ends_on_the_fifth_mirror(void **state)
     assert_int_equal(rng.rays, 0);
 }
 
+static void test_a_look_in_lanes_ends_there_too(void **state)
+{
+    (void)state;
+    const rt_box mirrors[2] = {{{-9, -9, -2}, {9, 9, -1}, {{0.9f, 0.9f, 0.9f}, true}},
+                               {{-9, -9, 6}, {9, 9, 7}, {{0.8f, 0.8f, 0.8f}, true}}};
+    const rt_light light = {{0, 3, 5}, {100, 100, 100}};
+    const rt_scene scene = {
+        .boxes = mirrors, .box_count = 2, .lights = &light, .light_count = 1};
+    const rt_camera camera = {.position = {0, 0, 5}, .fov_y = 40};
+    for (int bounces = 0; bounces < 8; bounces++) {
+        picture one = new_picture(20, 9), all = new_picture(20, 9);
+        rt_options options = {.samples = 2, .bounces = bounces, .lanes = 1};
+        rt_render(&scene, &camera, &options, &one.image);
+        options.lanes = 0;
+        rt_render(&scene, &camera, &options, &all.image);
+        assert_true(same_guides(&one.image, &all.image));
+        free_picture(&one);
+        free_picture(&all);
+    }
+}
+
 static void test_direct_light_is_all_without_bounces(void **state)
 {
     (void)state;
@@ -237,6 +258,30 @@ static void test_it_is_what_the_demo_does_by_hand(void **state)
     }
 }
 
+static void test_a_channel_that_sends_nothing_on(void **state)
+{
+    /* It shows no light, and is taken for the mean of the others: as by hand. */
+    (void)state;
+    main_of_the_demo(0, NULL);
+    rt_sphere spheres[7];
+    memcpy(spheres, room_spheres, sizeof spheres);
+    spheres[0].material.albedo = rt_vec(1, 0, 0);
+    spheres[4].material.albedo = rt_vec(0, 0.7f, 0.7f);
+    rt_scene scene = scene_indirect;
+    scene.spheres = spheres;
+    const rt_options options = {.samples = 6, .bounces = 5};
+    picture p = new_picture(48, 36);
+    rt_image by_hand = new_image(48, 36);
+    rt_render(&scene, &room_camera, &options, &p.image);
+    assert_int_equal(rt_denoise(&p.image, 0, &p.result), RT_OK);
+    assert_int_equal(the_demo.finish(&p.image, 1, &by_hand), RT_OK);
+    assert_true(same_pixels(&p.result, &by_hand));
+    assert_vec(rt__per_albedo(rt_vec(0.3f, 0, 0), rt_vec(0.5f, 0, 0.25f)), 0.6f, 0.4f, 0,
+               1e-6);
+    free(by_hand.pixels);
+    free_picture(&p);
+}
+
 static void test_background_is_left_alone(void **state)
 {
     (void)state;
@@ -284,10 +329,10 @@ static void test_it_is_nearer_to_the_truth(void **state)
     /* At 16 samples a quarter of the error at most, half of it at every count, and no harm
      * where there is hardly any noise left. */
     (void)state;
-    picture truth = room(120, 90, 2048, 99);
+    picture truth = room(160, 120, 1024, 99);
     double before = 1;
     for (int samples = 4; samples <= 1024; samples *= 4) {
-        picture p = room(120, 90, samples, 7);
+        picture p = room(160, 120, samples, 7);
         const double noisy = distance(&p.image, &truth.image);
         assert_int_equal(rt_denoise(&p.image, 0, &p.result), RT_OK);
         const double clean = distance(&p.result, &truth.image);
@@ -483,6 +528,53 @@ static void test_a_picture_that_was_stopped(void **state)
     free_picture(&fewer);
 }
 
+/* A picture of the even samples only, or of the odd ones, with the variance that it has. */
+static picture half_of(const rt_image *image, bool odd)
+{
+    picture p = new_picture(image->width, image->height);
+    for (int i = 0; i < image->width * image->height; i++) {
+        const rt_guide *g = &image->guides[i];
+        const rt_vec3 d = rt_sub(image->half[i], image->pixels[i]);
+        const rt_vec3 e = rt_sub(g->half, g->direct);
+        const float side = odd ? -1 : 1;
+        p.image.pixels[i] = rt_add(image->pixels[i], rt_scale(d, side));
+        p.image.half[i] = rt_add(p.image.pixels[i], rt_scale(d, sqrtf(2)));
+        p.image.guides[i] = *g;
+        p.image.guides[i].direct = rt_add(g->direct, rt_scale(e, side));
+        p.image.guides[i].half = rt_add(p.image.guides[i].direct, rt_scale(e, sqrtf(2)));
+    }
+    p.image.samples = image->samples;
+    assert_int_equal(rt_denoise(&p.image, 0, &p.result), RT_OK);
+    return p;
+}
+
+static double squares(const rt_image *a, const rt_image *b)
+{
+    double sum = 0;
+    for (int i = 0; i < a->width * a->height; i++) {
+        const rt_vec3 d = rt_sub(a->pixels[i], b->pixels[i]);
+        sum += (double)rt_dot(d, d);
+    }
+    return sum / (3.0 * a->width * a->height);
+}
+
+static void test_the_estimate_by_its_definition(void **state)
+{
+    (void)state;
+    picture p = room(64, 48, 16, 0);
+    picture even = half_of(&p.image, false), odd = half_of(&p.image, true);
+    double mean = 0;
+    for (int i = 0; i < 64 * 48; i++)
+        mean += (double)rt__mean(p.image.pixels[i]) / (64 * 48);
+    const double expected = sqrt(0.5 * (squares(&even.result, &odd.image) +
+                                        squares(&odd.result, &even.image) -
+                                        squares(&even.image, &odd.image)));
+    assert_close(rt_denoised_error(&p.image, 0), expected / mean, 1e-3 * expected / mean);
+    free_picture(&p);
+    free_picture(&even);
+    free_picture(&odd);
+}
+
 static void test_an_estimate_of_any_threads(void **state)
 {
     (void)state;
@@ -501,9 +593,11 @@ int main(void)
         cmocka_unit_test(test_guides_are_the_same_however_they_are_recorded),
         cmocka_unit_test(test_a_first_look),
         cmocka_unit_test(test_a_look_ends_on_the_fifth_mirror),
+        cmocka_unit_test(test_a_look_in_lanes_ends_there_too),
         cmocka_unit_test(test_direct_light_is_all_without_bounces),
         cmocka_unit_test(test_your_own_pixels_have_no_guides),
         cmocka_unit_test(test_it_is_what_the_demo_does_by_hand),
+        cmocka_unit_test(test_a_channel_that_sends_nothing_on),
         cmocka_unit_test(test_background_is_left_alone),
         cmocka_unit_test(test_the_image_goes_on_as_before),
         cmocka_unit_test(test_it_is_nearer_to_the_truth),
@@ -513,6 +607,7 @@ int main(void)
         cmocka_unit_test(test_what_is_no_number_stays_where_it_is),
         cmocka_unit_test(test_black_bright_and_dark),
         cmocka_unit_test(test_a_picture_that_was_stopped),
+        cmocka_unit_test(test_the_estimate_by_its_definition),
         cmocka_unit_test(test_an_estimate_of_any_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
