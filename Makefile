@@ -116,6 +116,8 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/sit
 	    $(BUILD)/demo09 320 240 --sampler $$sampler --no-window --quiet \
 	        --out docs/images/demo09-$$sampler.png || exit; \
 	done
+	$(BUILD)/demo09 --no-window --quiet --samples 16 --out docs/images/demo10-noisy.png
+	$(BUILD)/demo10 --no-window --quiet --samples 4 --out docs/images/demo10-4.png
 	@tests/check screenshots
 	docs/numbers.sh
 	docs/renew.sh README.md docs/*.md

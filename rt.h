@@ -56,9 +56,9 @@
  *                 direct and indirect light, on all cores. C99 and C++17, libc and libm.
  * WHAT IT IS NOT  No meshes, no textures, no glass, no lights with a size; no files, no
  *                 windows. It does not print, exit, or keep global state, and allocates
- *                 only for rt_build_bvh and while rt_render runs.
+ *                 only for rt_build_bvh and while rt_render or rt_denoise runs.
  *
- * HOW TO READ IT  From top to bottom. Chapters 0 to 9 are plain C, each on top of the
+ * HOW TO READ IT  From top to bottom. Chapters 0 to 10 are plain C, each on top of the
  *                 ones before; demos/demoNN and docs/NN- have the same numbers. The
  *                 machinery that runs them on all cores, several rays at a time, stands
  *                 last, under RT_IMPLEMENTATION.
@@ -110,7 +110,8 @@
  *                 them with traps off and the flags put back. How all this is tested:
  *                 docs/correctness.md.
  * IN C++          Include it outside of any namespace, for it includes C headers.
- * ERRORS          rt_render, rt_render_pixels, rt_build_bvh and rt_check_... can fail.
+ * ERRORS          rt_render, rt_render_pixels, rt_denoise, rt_build_bvh and
+ *                 rt_check_... can fail.
  *                 They return an rt_status, and rt_status_text says in English what was
  *                 wrong and what to do about it.
  *
@@ -124,6 +125,7 @@
  *                 7 indirect light     rt_random, rt_sample_cosine, rt_radiance
  *                 8 many shapes        rt_bvh
  *                 9 less noise         rt_sobol_start
+ *                10 clean pictures     rt_guide, rt_first_look, rt_denoise
  *                   pictures           rt_image, rt_options, rt_render, rt_build_bvh
  *
  * Licence (MIT or public domain) at the end of the file; changes in CHANGELOG.md.
@@ -1530,7 +1532,7 @@ static inline uint32_t rt__sobol(const rt_rng *rng)
  * neighbours (rt_denoise, below):
  *
  *  1. Smooth. Means over 5 x 5 pixels, then over 5 x 5 that are twice as far apart, then
- *     four times ... (a trous, "with holes"): five times 25 reach as far as 125 x 125.
+ *     four times ... (a trous, "with holes"): four times 25 reach as far as 61 x 61.
  *     Who sees another surface, or light that differs by more than noise can explain,
  *     counts little.
  *  2. Edges. A pixel that sees two surfaces has no neighbours like itself. It is a
@@ -1541,7 +1543,7 @@ static inline uint32_t rt__sobol(const rt_rng *rng)
  *
  * H. Dammertz et al., "Edge-avoiding a-trous wavelet transform for fast global
  * illumination filtering", HPG 2010; C. Schied et al., "Spatiotemporal variance-guided
- * filtering", HPG 2017. Steps 2 and 3 are ours; what all gain is in docs/10-clean.md.
+ * filtering", HPG 2017. Steps 2 and 3 are ours. What all of it gains is in docs/10-clean.md.
  * ==================================================================================== */
 
 /* What the camera rays of a pixel tell at once: of the first surface that is no mirror,
@@ -1599,20 +1601,15 @@ RT__INLINE float rt__unlike(rt_vec3 normal1, rt_vec3 point1, rt_vec3 normal2,
            50.0f * (off1 * off1 + off2 * off2) / (rt_dot(way, way) + FLT_MIN);
 }
 
-/* How unlike two values of light are: their difference squared over what is usual for
- * noise of these variances. Six deviations are still near, since these pixels are yet to
- * be smoothed. */
-RT__INLINE float rt__unlike_light(float light1, float variance1, float light2,
-                                  float variance2)
+/* How much one pixel has to say to another, 0 to 1: about e^-x, without libm, where x is
+ * how unlike they are and d^2 / noise. d is the difference of their light, and noise what
+ * is usual for one of these variances: six deviations are still near, since the pixels
+ * are yet to be smoothed. */
+RT__INLINE float rt__say(float unlike, float light1, float variance1, float light2,
+                         float variance2)
 {
-    const float d = light1 - light2;
-    return d * d / (36.0f * (variance1 + variance2) + FLT_MIN);
-}
-
-/* How much a pixel counts that is so unlike: 1 for 0, and about e^-x, without libm. */
-RT__INLINE float rt__say(float unlike)
-{
-    const float root = 1.0f / (1.0f + 0.25f * unlike);
+    const float d = light1 - light2, noise = 36.0f * (variance1 + variance2) + FLT_MIN;
+    const float root = noise / (noise * (1.0f + 0.25f * unlike) + 0.25f * d * d);
     return root * root * root * root;
 }
 
@@ -1625,7 +1622,7 @@ RT__INLINE float rt__mixture(const rt_vec3 *pixel, const rt_vec3 *first,
     const rt_vec3 n = rt_sub(second[0], first[0]), n0 = rt_sub(pixel[0], first[0]);
     const rt_vec3 a = rt_sub(second[1], first[1]), a0 = rt_sub(pixel[1], first[1]);
     const rt_vec3 p = rt_sub(second[2], first[2]), p0 = rt_sub(pixel[2], first[2]);
-    const float unit = 1.0f / (rt_dot(p, p) + FLT_MIN); /* points count as 1 at most */
+    const float unit = 1.0f / (rt_dot(p, p) + rt_dot(p0, p0) + FLT_MIN);
     const float all = rt_dot(n, n) + rt_dot(a, a) + unit * rt_dot(p, p);
     const float part = rt_dot(n, n0) + rt_dot(a, a0) + unit * rt_dot(p, p0);
     float t = part / (all + FLT_MIN);
@@ -3269,11 +3266,10 @@ static inline void rt__smooth_row(const rt__finish *f, int y)
                                   there = rt__get(light, k + to);
                     const float unlike =
                         rt__unlike(rt__get(f->normal, k), rt__get(f->point, k),
-                                   rt__get(f->normal, k + to),
-                                   rt__get(f->point, k + to)) +
-                        rt__unlike_light(rt__mean(here), variance[k], rt__mean(there),
-                                         variance[k + to]);
-                    const float w = part * f->known[k + to] * rt__say(unlike);
+                                   rt__get(f->normal, k + to), rt__get(f->point, k + to));
+                    const float say = rt__say(unlike, rt__mean(here), variance[k],
+                                              rt__mean(there), variance[k + to]);
+                    const float w = part * f->known[k + to] * say;
                     red[k - i] += w * there.x;
                     green[k - i] += w * there.y;
                     blue[k - i] += w * there.z;

@@ -105,7 +105,7 @@ static inline float mixture(const clean_pixel *pixel, const clean_pixel *first,
     const rt_vec3 n0 = rt_sub(pixel->normal, first->normal);
     const rt_vec3 a0 = rt_sub(pixel->albedo, first->albedo);
     const rt_vec3 p0 = rt_sub(pixel->point, first->point);
-    const float unit = 1 / (rt_dot(p, p) + FLT_MIN);
+    const float unit = 1 / (rt_dot(p, p) + rt_dot(p0, p0) + FLT_MIN);
     const float all = rt_dot(n, n) + rt_dot(a, a) + unit * rt_dot(p, p);
     const float part = rt_dot(n, n0) + rt_dot(a, a0) + unit * rt_dot(p, p0);
     float t = part / (all + FLT_MIN);

@@ -399,10 +399,18 @@ static void describe(const rt_image *image, char *text, size_t size)
         snprintf(text + n, size - (size_t)n, ", error unknown");
 }
 
+/* Is this image what r->clean was made of? */
+static bool is_clean(const run *r, const rt_image *image)
+{
+    const rt_image *clean = &r->clean;
+    return clean->width == image->width && clean->samples == image->samples &&
+           clean->done == image->done && clean->rays == image->rays;
+}
+
 /* What is to be saved. */
 static const rt_image *picture(const run *r)
 {
-    return r->s.denoise && r->clean.samples > 0 ? &r->clean : &r->image;
+    return r->s.denoise && is_clean(r, &r->image) ? &r->clean : &r->image;
 }
 
 static unsigned char (*encoder(const run *r))(float value);
@@ -636,8 +644,7 @@ static rt_status denoise(run *r, const rt_image *image,
         clean->pixels = new_pixels(r->image.width, r->image.height);
     if (!clean->pixels)
         return RT_NO_MEMORY;
-    if (clean->width == image->width && clean->samples == image->samples &&
-        clean->done == image->done && clean->rays == image->rays)
+    if (is_clean(r, image))
         return RT_OK;
     clean->width = image->width;
     clean->height = image->height;
@@ -805,7 +812,7 @@ static bool finish(run *r, rt_status status, double took)
     finishing = demo_seconds() - finishing;
     if (status == RT_NO_MEMORY)
         return fprintf(stderr, "%s: %s\n", r->d->name, rt_status_text(status)), false;
-    if (r->s.preview && !r->s.quiet && r->clean.samples > 0)
+    if (r->s.preview && !r->s.quiet && picture(r) == &r->clean)
         print_preview(r);
     if (!save(r))
         return false;
@@ -814,7 +821,7 @@ static bool finish(run *r, rt_status status, double took)
         describe(&r->image, result, sizeof result);
         printf("%s: %.2f s, %s, %.1f million rays per second, ", r->d->name, took, result,
                (double)r->image.rays / took * 1e-6);
-        if (r->clean.samples > 0 && r->s.denoise)
+        if (picture(r) == &r->clean)
             printf("finished in %.2f s: error at most %.2f %%, ", finishing,
                    100.0 * (double)rt_denoised_error(&r->image, (int)r->s.threads));
         printf("wrote %s%s\n", r->s.out, status == RT_CANCELLED ? " (interrupted)" : "");

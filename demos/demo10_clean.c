@@ -16,13 +16,13 @@ static float unlike(const clean_pixel *a, const clean_pixel *b)
            50 * (off_a * off_a + off_b * off_b) / (rt_dot(way, way) + FLT_MIN);
 }
 
-/* How much b has to say to a: about e^-x. In x goes, too, by how much their light differs, next
- * to what noise can explain: six deviations. */
+/* How much b has to say to a: about e^-x, where x is how unlike they are and d^2 / noise. d is
+ * the difference of their light, and noise six deviations of it, squared. */
 static float say(const clean_pixel *a, const clean_pixel *b)
 {
     const float d = mean_of(a->light) - mean_of(b->light);
-    const float x = unlike(a, b) + d * d / (36 * (a->variance + b->variance) + FLT_MIN);
-    const float root = 1 / (1 + x / 4);
+    const float noise = 36 * (a->variance + b->variance) + FLT_MIN;
+    const float root = noise / (noise * (1 + unlike(a, b) / 4) + d * d / 4);
     return root * root * root * root;
 }
 

@@ -507,6 +507,8 @@ static void save_view(run *r)
 {
     r->win->save = false;
     r->win->polled = 0.0; /* it writes the file */
+    if (is_denoised(r) && r->image.guides && r->image.samples >= 2)
+        denoise(r, &r->image, rt_denoise);
     if (!save(r) || r->s.quiet)
         return;
     end_progress(r);
@@ -634,7 +636,7 @@ static void handle_key(run *r, SDL_Keycode key, bool repeated)
         w->hold = true;
         return;
     case SDLK_o:
-        w->comparison = (w->comparison + 1) % COMPARISONS;
+        w->comparison = (w->comparison + 1) % (r->s.denoise ? COMPARISONS : NOISY);
         forget(&w->other);
         w->stop = true;
         return;

@@ -65,7 +65,7 @@ done
 
 {
     sed '/^<!-- gallery -->$/q' "$page"
-    for file in $(ls docs/mistakes/*.c | sort -V); do
+    for file in $(ls docs/mistakes/*.c | sort -s -t/ -k3,3n); do
         name=$(basename "$file" .c) n=${name%%-*}
         [ "$n" = "$last" ] || printf '\n## %s\n' \
             "$(sed -n '1s/^# //p' "$(ls docs/*"$n"-*.md)" | sed "s/^\([0-9]*\)\. /Chapter \1: /")"

@@ -181,9 +181,9 @@ def test_the_stages_are_the_pictures_of_the_demos(display):
 
 def test_the_demos_own_function_moves(display):
     """Each demo has its own function in its own stage, and the camera moves it."""
-    for demo in (1, 2, 3, 4, 5, 6, 8, 9):
+    for demo in (1, 2, 3, 4, 5, 6, 8, 9, 10):
         stage = min(demo, 7)
-        window = Window(display, "demo0%d" % demo, *SMALL)
+        window = Window(display, "demo%02d" % demo, *SMALL)
         window.wait(r"%d %s \(the demo's\), 4 samples" % (stage, NAMES[stage]))
         before, _ = window.save()
         window.key("Left")
@@ -359,6 +359,37 @@ def test_hold_to_compare(display):
     window.end()
 
 
+def test_d_takes_the_noise_out(display):
+    """Also where the demo's own pixels have no guides; b shows the noise; r brings it back."""
+    for demo in ("demo09", "demo07"):
+        window = Window(display, demo, *SMALL)
+        window.wait(r"4 samples, error [0-9.]* %, [0-9]")
+        noisy, _ = window.save()
+        window.key("d")
+        window.wait(r"4 samples, error .*, finished: at most")
+        clean, _ = window.save()
+        assert clean == expected(demo, *SMALL, "--denoise")
+        assert clean != noisy
+        clean = window.screen()
+        window.xdotool("keydown", "b")
+        window.wait("held: with its noise")
+        assert window.screen() != clean
+        window.xdotool("keyup", "b")
+        window.wait("finished: at most")
+        assert window.screen() == clean
+        window.key("Left")
+        window.wait(r"4 samples, error .*, finished: at most")
+        assert window.screen() != clean
+        window.key("3")
+        window.wait("3 cube, 4 samples")
+        picture, _ = window.save()
+        window.key("r")
+        window.wait(r"4 samples, error [0-9.]* %, [0-9]")
+        again, _ = window.save()
+        assert again == noisy and picture != noisy
+        window.end()
+
+
 def test_reset_brings_everything_back(display):
     window = Window(display, "demo06", *SMALL)
     window.wait("4 samples")
@@ -428,6 +459,18 @@ def test_thirty_pictures_a_second(display):
           % (match.group(2), match.group(3)))
     pictures, rate, wait = [int(number) for number in match.groups()]
     assert pictures >= 20 and rate >= 30 and wait <= 50, match.group(0)
+
+
+@three_times
+def test_indirect_light_in_motion(display):
+    window = Window(display, "demo10", "--samples", "4")
+    window.wait("4 samples")
+    window.drag(200, 300, 200, -200, steps=100)
+    _, said = window.end()
+    match = re.search(r"(\d+) pictures in motion, (\d+) a second", said)
+    assert match, said
+    print("  640 x 480, indirect light without noise: %s pictures a second" % match.group(2))
+    assert int(match.group(1)) >= 10 and int(match.group(2)) >= 15, match.group(0)
 
 
 @three_times

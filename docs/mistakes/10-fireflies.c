@@ -1,6 +1,6 @@
 /* Blots from fireflies
  *
- * Symptom: no grain, but soft blots: each firefly has become one; and dark corners and the shade under the ball are too bright
+ * Symptom: no grain, but soft stains of colour, and the shade under the ball is gone
  * Cause:   only the guides decide who is asked, and light that differs by far more than noise explains is mixed in
  * Cure:    a difference counts by the variance of the two pixels
  * Options: --denoise

@@ -66,6 +66,9 @@ $1 == "direct" { keep("direct", $2, $4 + 0, 1) }
 $1 == "mitsuba" { keep("mitsuba", $2, $3 + 0, 1) }
 $1 == "growth" { keep("ns " $2, $3, $4 + 0, 0) }
 $1 == "growth" && $2 != "linear" { keep("built", $3, $6 + 0, 0) }
+$1 == "denoise" { at[++pictures] = $2; noisy[$2] = $3; clean[$2] = $4; one[$2] = $5; two[$2] = $6 }
+$1 == "oidn" { theirs[$2] = $3; took[$2] = $4 }
+$1 == "oidn-split" { split_up[$2] = $3 }
 $1 == "error" { samples[++errors] = $3 + 0; random[errors] = $4 + 0; sobol[errors] = $5 + 0 }
 
 END {
@@ -137,6 +140,15 @@ END {
             print "slope \342\210\2221/2\t" samples[i] "\t" 0.75 * random[1] / sqrt(samples[i]) "\tdashed"
         }
         exit
+    }
+    if (topic == "denoise") {
+        columns = 6
+        line("samples", "noisy", "rt_denoise", "seconds, 1 and 2 threads", "Open Image Denoise, seconds", "the same on our light")
+        for (i = 1; i <= pictures; i++) {
+            k = at[i]
+            line(k, show(noisy[k]), show(clean[k]), show(one[k]) " " show(two[k]),
+                 show(theirs[k]) (k in took ? " " show(took[k]) : ""), show(split_up[k]))
+        }
     }
     if (topic == "error") {
         columns = 4
