@@ -1543,7 +1543,7 @@ static inline uint32_t rt__sobol(const rt_rng *rng)
  *
  * H. Dammertz et al., "Edge-avoiding a-trous wavelet transform for fast global
  * illumination filtering", HPG 2010; C. Schied et al., "Spatiotemporal variance-guided
- * filtering", HPG 2017. Steps 2 and 3 are ours. What all of it gains is in docs/10-clean.md.
+ * filtering", HPG 2017. Steps 2 and 3 are ours. What it all gains: docs/10-clean.md.
  * ==================================================================================== */
 
 /* What the camera rays of a pixel tell at once: of the first surface that is no mirror,
@@ -1613,15 +1613,15 @@ RT__INLINE float rt__say(float unlike, float light1, float variance1, float ligh
     return root * root * root * root;
 }
 
-/* If a pixel is a mixture of two others, (1-t) of the first and t of the second, which t
- * is it? The one that comes nearest, for a vector of normal, albedo and point: the foot
- * of the perpendicular. *off: how far it is still off, squared. */
-RT__INLINE float rt__mixture(const rt_vec3 *pixel, const rt_vec3 *first,
-                             const rt_vec3 *second, float *off)
+/* If a pixel is a mixture of two others, (1-t) of the left and t of the right, which t is
+ * it? The one that comes nearest, for a vector of normal, albedo and point: the foot of
+ * the perpendicular. *off: how far it is still off, squared. */
+RT__INLINE float rt__mixture(const rt_vec3 *pixel, const rt_vec3 *left,
+                             const rt_vec3 *right, float *off)
 {
-    const rt_vec3 n = rt_sub(second[0], first[0]), n0 = rt_sub(pixel[0], first[0]);
-    const rt_vec3 a = rt_sub(second[1], first[1]), a0 = rt_sub(pixel[1], first[1]);
-    const rt_vec3 p = rt_sub(second[2], first[2]), p0 = rt_sub(pixel[2], first[2]);
+    const rt_vec3 n = rt_sub(right[0], left[0]), n0 = rt_sub(pixel[0], left[0]);
+    const rt_vec3 a = rt_sub(right[1], left[1]), a0 = rt_sub(pixel[1], left[1]);
+    const rt_vec3 p = rt_sub(right[2], left[2]), p0 = rt_sub(pixel[2], left[2]);
     const float unit = 1.0f / (rt_dot(p, p) + rt_dot(p0, p0) + FLT_MIN);
     const float all = rt_dot(n, n) + rt_dot(a, a) + unit * rt_dot(p, p);
     const float part = rt_dot(n, n0) + rt_dot(a, a0) + unit * rt_dot(p, p0);
@@ -2849,8 +2849,8 @@ static inline void rt__work(rt__team *team, int thread)
     const bool looks_up = job->options.progress || job->options.seconds > 0.0f;
     rt_watch *watch = thread == 0 && looks_up ? &team->watch : NULL;
     rt_vec3 values[RT__CHUNK];
-    rt_guide guides[RT__CHUNK];
-    const bool guided = image->guides && job->scene;
+    rt_guide guides[RT__CHUNK], *const wanted =
+                                    image->guides && job->scene ? guides : NULL;
     uint64_t rays = 0;
     rt__task task;
     task.chunk = task.from = task.to = 0;
@@ -2861,15 +2861,14 @@ static inline void rt__work(rt__team *team, int thread)
             first = team->first_pixel;
         rays = 0;
         for (int sample = task.from; sample < task.to; sample++) {
-            rays += job->step(job, sample, first, last, watch, values,
-                              guided ? guides : NULL);
+            rays += job->step(job, sample, first, last, watch, values, wanted);
             while (sample == task.from && !rt__may_record(team, &task, thread))
                 rt__tick(watch);
             rt__lock(&team->writing[thread]);
             for (int i = first; i < last; i++)
                 rt__record(image, sample, i, values[i - first]);
-            for (int i = first; guided && i < last; i++)
-                rt__record_guide(image, sample, i, guides[i - first]);
+            for (int i = first; wanted && i < last; i++)
+                rt__record_guide(image, sample, i, wanted[i - first]);
             rt__unlock(&team->writing[thread]);
         }
         if (watch)
@@ -3108,8 +3107,8 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
 
 /* ---- finishing a picture: chapter 10, sixteen pixels at a time ------------------- */
 
-/* All pixels take the same steps, one row after the other. The loops over the 16 pixels of
- * a block do without if, so that a compiler can do several of them at once. */
+/* All pixels take the same steps, one row after the other. The loops over the 16 pixels
+ * of a block do without if, so that a compiler can do several of them at once. */
 enum { RT__BLOCK = 16, RT__PASSES = 4, RT__MARGIN = 2 << (RT__PASSES - 1) };
 
 /* Which samples of the image? */
@@ -3191,14 +3190,14 @@ static inline void rt__load_row(const rt__finish *f, int y)
     for (int x = 0; x < f->width; x++) {
         const int from = y * f->width + x, i = rt__at_row(f, y) + x;
         const rt_guide *g = &image->guides[from];
-        const rt_vec3 pixel = image->pixels[from], half = image->half[from];
-        if (!(rt__is_moderate(pixel) && rt__is_moderate(half) &&
+        const rt_vec3 mean = image->pixels[from], half = image->half[from];
+        if (!(rt__is_moderate(mean) && rt__is_moderate(half) &&
               rt__is_moderate(g->normal) && rt__is_moderate(g->point) &&
               rt__is_moderate(g->albedo) && rt__is_moderate(g->direct) &&
               rt__is_moderate(g->half) && rt__mean(g->albedo) > 0.0f))
             continue;
         float spread;
-        const rt_vec3 all = rt_sub(pixel, g->direct), even = rt_sub(half, g->half);
+        const rt_vec3 all = rt_sub(mean, g->direct), even = rt_sub(half, g->half);
         const rt_vec3 indirect = rt__part_of(f, from, all, even, &spread);
         const rt_vec3 differ = rt_scale(rt_sub(even, all), spread);
         const rt_vec3 light = rt__per_albedo(indirect, g->albedo);
@@ -3264,12 +3263,12 @@ static inline void rt__smooth_row(const rt__finish *f, int y)
                 for (int k = i; k < i + RT__BLOCK; k++) {
                     const rt_vec3 here = rt__get(light, k),
                                   there = rt__get(light, k + to);
-                    const float unlike =
+                    const float differ =
                         rt__unlike(rt__get(f->normal, k), rt__get(f->point, k),
                                    rt__get(f->normal, k + to), rt__get(f->point, k + to));
-                    const float say = rt__say(unlike, rt__mean(here), variance[k],
-                                              rt__mean(there), variance[k + to]);
-                    const float w = part * f->known[k + to] * say;
+                    const float w = part * f->known[k + to] *
+                                    rt__say(differ, rt__mean(here), variance[k],
+                                            rt__mean(there), variance[k + to]);
                     red[k - i] += w * there.x;
                     green[k - i] += w * there.y;
                     blue[k - i] += w * there.z;
@@ -3318,29 +3317,29 @@ static inline void rt__edge_row(const rt__finish *f, int y)
         for (int n = 0; n < (inside ? 4 : 1); n++)
             for (int k = i; k < i + RT__BLOCK; k++) {
                 const int j = k + opposite[n], l = k - opposite[n];
-                const rt_vec3 pixel[3] = {rt__get(f->normal, k), rt__get(f->albedo, k),
-                                          rt__get(f->point, k)};
-                const rt_vec3 first[3] = {rt__get(f->normal, j), rt__get(f->albedo, j),
-                                          rt__get(f->point, j)};
-                const rt_vec3 second[3] = {rt__get(f->normal, l), rt__get(f->albedo, l),
-                                           rt__get(f->point, l)};
+                const rt_vec3 middle[3] = {rt__get(f->normal, k), rt__get(f->albedo, k),
+                                           rt__get(f->point, k)};
+                const rt_vec3 left[3] = {rt__get(f->normal, j), rt__get(f->albedo, j),
+                                         rt__get(f->point, j)};
+                const rt_vec3 right[3] = {rt__get(f->normal, l), rt__get(f->albedo, l),
+                                          rt__get(f->point, l)};
                 float off;
-                const float t = rt__mixture(pixel, first, second, &off);
+                const float t = rt__mixture(middle, left, right, &off);
                 const float w = f->known[j] * f->known[l] / (400.0f * off * off + 1e-4f);
                 red[k - i] += w * ((1.0f - t) * light[0][j] + t * light[0][l]);
                 green[k - i] += w * ((1.0f - t) * light[1][j] + t * light[1][l]);
                 blue[k - i] += w * ((1.0f - t) * light[2][j] + t * light[2][l]);
                 weights[k - i] += w;
-                const rt_vec3 a = rt_sub(pixel[1], first[1]),
-                              b = rt_sub(pixel[1], second[1]);
-                const float one =
-                    f->known[j] * (rt__unlike(pixel[0], pixel[2], first[0], first[2]) +
+                const rt_vec3 a = rt_sub(middle[1], left[1]),
+                              b = rt_sub(middle[1], right[1]);
+                const float unlike_left =
+                    f->known[j] * (rt__unlike(middle[0], middle[2], left[0], left[2]) +
                                    10.0f * rt_dot(a, a));
-                const float other =
-                    f->known[l] * (rt__unlike(pixel[0], pixel[2], second[0], second[2]) +
+                const float unlike_right =
+                    f->known[l] * (rt__unlike(middle[0], middle[2], right[0], right[2]) +
                                    10.0f * rt_dot(b, b));
-                most[k - i] = most[k - i] > one ? most[k - i] : one;
-                most[k - i] = most[k - i] > other ? most[k - i] : other;
+                most[k - i] = most[k - i] > unlike_left ? most[k - i] : unlike_left;
+                most[k - i] = most[k - i] > unlike_right ? most[k - i] : unlike_right;
             }
         for (int k = 0; k < RT__BLOCK; k++) {
             const bool edge = most[k] > 1.0f;
@@ -3374,15 +3373,15 @@ static inline void rt__store_row(const rt__finish *f, int y)
     rt__average_row(f, y, f->noise, noise);
     for (int x = 0; x < f->width; x++) {
         const int to = y * f->width + x, i = rt__at_row(f, y) + x;
-        const rt_vec3 clean = rt__get(light, i);
-        const rt_vec3 back = rt_scale(rt_sub(rt__get(f->indirect, i), clean),
+        const rt_vec3 outcome = rt__get(light, i);
+        const rt_vec3 back = rt_scale(rt_sub(rt__get(f->indirect, i), outcome),
                                       rt__doubt(differ[i], noise[i], f->image->samples));
         float spread;
         const rt_guide *g = &f->image->guides[to];
         f->result[to] =
             f->known[i] > 0.0f
                 ? rt_add(rt__part_of(f, to, g->direct, g->half, &spread),
-                         rt_add(clean, back))
+                         rt_add(outcome, back))
                 : rt__part_of(f, to, f->image->pixels[to], f->image->half[to], &spread);
     }
 }
@@ -3443,7 +3442,7 @@ static inline rt_status rt__finish_part(const rt_image *image, rt__samples part,
     }
     f.noise = next += plane;
     f.variance[0] = next += plane;
-    f.variance[1] = next += plane;
+    f.variance[1] = next + plane;
     threads = rt_thread_count(threads);
     rt__all_rows(&f, threads, rt__load_row);
     rt__all_rows(&f, threads, rt__variance_row);

@@ -179,13 +179,14 @@ static inline void put_together(const rt_image *image, const clean_picture *p,
     for (int i = 0; i < p->width * p->height; i++) {
         const int x = i % p->width, y = i / p->width;
         const clean_pixel *pixel = &p->pixels[i];
-        const rt_vec3 clean = result->pixels[i];
+        const rt_vec3 outcome = result->pixels[i];
         const float back =
             doubt(around(p, differ, x, y), around(p, noise, x, y), image->samples);
         result->pixels[i] =
             pixel->known
-                ? rt_add(image->guides[i].direct,
-                         rt_add(clean, rt_scale(rt_sub(pixel->indirect, clean), back)))
+                ? rt_add(
+                      image->guides[i].direct,
+                      rt_add(outcome, rt_scale(rt_sub(pixel->indirect, outcome), back)))
                 : image->pixels[i];
     }
     result->samples = image->samples;

@@ -24,7 +24,8 @@ static void test_all_write_a_png_to_build(void **state)
     for (int i = 1; i <= 10; i++) {
         static unsigned char bytes[100000];
         char arguments[100], path[40];
-        snprintf(arguments, sizeof arguments, "demo%02d 40 30 --samples 2 --no-window", i);
+        snprintf(arguments, sizeof arguments, "demo%02d 40 30 --samples 2 --no-window",
+                 i);
         snprintf(path, sizeof path, "build/demo%02d.png", i);
         expect(0, "40 x 30, 2 samples|bounce|thread|rays per second|wrote build/demo",
                arguments);
