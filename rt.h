@@ -2849,8 +2849,8 @@ static inline void rt__work(rt__team *team, int thread)
     const bool looks_up = job->options.progress || job->options.seconds > 0.0f;
     rt_watch *watch = thread == 0 && looks_up ? &team->watch : NULL;
     rt_vec3 values[RT__CHUNK];
-    rt_guide guides[RT__CHUNK], *const wanted =
-                                    image->guides && job->scene ? guides : NULL;
+    rt_guide guides[RT__CHUNK];
+    rt_guide *const wanted = image->guides && job->scene ? guides : NULL;
     uint64_t rays = 0;
     rt__task task;
     task.chunk = task.from = task.to = 0;
