@@ -3419,6 +3419,8 @@ static inline rt_status rt__finish_part(const rt_image *image, rt__samples part,
 {
     rt__finish f;
     memset(&f, 0, sizeof f);
+    if (image->width > INT_MAX - 3 * RT__MARGIN)
+        return RT_NO_MEMORY; /* positions would not be ints */
     f.image = image;
     f.part = part;
     f.result = result;
@@ -3427,7 +3429,7 @@ static inline rt_status rt__finish_part(const rt_image *image, rt__samples part,
     f.stride = (f.width - 1) / RT__BLOCK * RT__BLOCK + RT__BLOCK + 2 * RT__MARGIN;
     const size_t plane = (size_t)f.stride * (size_t)f.height;
     float *next = NULL;
-    if (f.width < INT_MAX - 3 * RT__MARGIN && f.stride <= INT_MAX / f.height)
+    if (f.stride <= INT_MAX / f.height && plane <= SIZE_MAX / (RT__PLANES * sizeof *next))
         next = (float *)RT_MALLOC(RT__PLANES * plane * sizeof *next);
     if (!next)
         return RT_NO_MEMORY;
@@ -3479,7 +3481,9 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
     if (rt__check_finish(image, threads) != RT_OK)
         return INFINITY;
     const size_t count = (size_t)image->width * (size_t)image->height;
-    rt_vec3 *both = (rt_vec3 *)RT_MALLOC(2 * count * sizeof *both);
+    rt_vec3 *both = NULL;
+    if (count <= SIZE_MAX / (2 * sizeof *both))
+        both = (rt_vec3 *)RT_MALLOC(2 * count * sizeof *both);
     const bool good = both && rt__finish_part(image, RT__EVEN, threads, both) == RT_OK &&
                       rt__finish_part(image, RT__ODD, threads, both + count) == RT_OK;
     double squares = 0.0, sum = 0.0;

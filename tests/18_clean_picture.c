@@ -440,6 +440,12 @@ static void test_bad_arguments(void **state)
     REFUSED(RT_BAD_SIZE);
     image.width = result.width = image.height = result.height = 50000;
     REFUSED(RT_BAD_SIZE);
+    image.width = result.width = INT_MAX; /* refused before memory is asked for */
+    image.height = result.height = 1;
+    REFUSED(RT_NO_MEMORY);
+    image.width = result.width = 1;
+    image.height = result.height = INT_MAX;
+    REFUSED(RT_NO_MEMORY);
     image.done = 48;
     REFUSED(RT_BAD_SIZE);
     image.half = NULL;
