@@ -1557,8 +1557,10 @@ typedef struct rt_guide {
     rt_vec3 half;          /* of direct, the mean of every second sample */
 } rt_guide;
 
-/* Follow the camera ray to the first surface that is no mirror, as rt_radiance does, over
- * four mirrors at most. (What comes by way of more is smoothed on the last of them.) */
+/* Follow the camera ray to the first surface that is no mirror, as rt_radiance does with
+ * so many bounces, over four mirrors at most. (What comes by way of more is smoothed on
+ * the last of them.) If it meets none: the background, and all else 0. direct is, to the
+ * bit, what rt_radiance adds up to there; it asks the lamps, which *rng counts. */
 static inline rt_guide rt_first_look(const rt_scene *scene, const rt_ray *camera_ray,
                                      int bounces, rt_rng *rng)
 {
