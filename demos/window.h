@@ -915,7 +915,7 @@ static void draw_draft(run *r)
     draw(r);
     const double took = demo_seconds() - start;
     /* not longer than that, and as large as that allows */
-    const double most = clean ? 0.060 : 0.040, larger = (w->shrink - 1.0) / w->shrink;
+    const double most = clean ? 0.050 : 0.025, larger = (w->shrink - 1.0) / w->shrink;
     if (took > most && w->shrink < 8)
         w->shrink++;
     else if (took < 0.95 * most * larger * larger && w->shrink > 2)
