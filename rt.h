@@ -2657,13 +2657,21 @@ static inline double rt__seconds(void)
 #endif
 }
 
-static inline rt_status rt__check_job(const rt_image *image, const rt_options *o)
+static inline rt_status rt__check_image(const rt_image *image)
 {
     if (!image || !image->pixels)
         return RT_BAD_POINTER;
     if (image->width < 1 || image->height < 1 || image->width > INT_MAX / image->height ||
         image->done < 0 || image->done >= image->width * image->height)
         return RT_BAD_SIZE;
+    return RT_OK;
+}
+
+static inline rt_status rt__check_job(const rt_image *image, const rt_options *o)
+{
+    const rt_status status = rt__check_image(image);
+    if (status != RT_OK)
+        return status;
     if (o->samples < 0 || image->samples < 0 ||
         (o->samples == 0 ? 16 : o->samples) > INT_MAX - image->samples)
         return RT_BAD_SAMPLES;
@@ -3168,19 +3176,30 @@ static inline rt_vec3 rt__per_albedo(rt_vec3 light, rt_vec3 albedo)
                   albedo.z > 0.0f ? light.z / albedo.z : mean);
 }
 
-/* The mean over the samples of a part, from those of all and of the even ones; *spread:
- * its standard deviation, where that of all shows as the difference of the two. */
-static inline rt_vec3 rt__part_of(const rt__finish *f, int i, rt_vec3 all, rt_vec3 even,
-                                  float *spread)
+/* How many even samples there are for each odd one. */
+static inline float rt__even_to_odd(const rt_image *image, int i)
 {
-    const int n = f->image->samples + (i < f->image->done), odds = n / 2;
-    const float ratio = (float)(n - odds) / (float)odds; /* even to odd */
-    *spread = sqrtf(f->part == RT__ALL    ? ratio
-                    : f->part == RT__EVEN ? 1.0f + ratio
-                                          : (1.0f + ratio) * ratio);
-    return f->part == RT__ALL    ? all
-           : f->part == RT__EVEN ? even
-                                 : rt_add(all, rt_scale(rt_sub(all, even), ratio));
+    const int n = image->samples + (i < image->done), odds = n / 2;
+    return (float)(n - odds) / (float)odds;
+}
+
+/* The mean over the samples of a part, from those of all and of the even ones. */
+static inline rt_vec3 rt__part_of(const rt_image *image, rt__samples part, int i,
+                                  rt_vec3 all, rt_vec3 even)
+{
+    const float ratio = rt__even_to_odd(image, i);
+    return part == RT__ALL    ? all
+           : part == RT__EVEN ? even
+                              : rt_add(all, rt_scale(rt_sub(all, even), ratio));
+}
+
+/* The standard deviation of that mean, where the difference of even and all is 1. */
+static inline float rt__spread(const rt_image *image, rt__samples part, int i)
+{
+    const float ratio = rt__even_to_odd(image, i);
+    return sqrtf(part == RT__ALL    ? ratio
+                 : part == RT__EVEN ? 1.0f + ratio
+                                    : (1.0f + ratio) * ratio);
 }
 
 static inline void rt__load_row(const rt__finish *f, int y)
@@ -3198,10 +3217,10 @@ static inline void rt__load_row(const rt__finish *f, int y)
               rt__is_moderate(g->albedo) && rt__is_moderate(g->direct) &&
               rt__is_moderate(g->half) && rt__mean(g->albedo) > 0.0f))
             continue;
-        float spread;
         const rt_vec3 all = rt_sub(mean, g->direct), even = rt_sub(half, g->half);
-        const rt_vec3 indirect = rt__part_of(f, from, all, even, &spread);
-        const rt_vec3 differ = rt_scale(rt_sub(even, all), spread);
+        const rt_vec3 indirect = rt__part_of(image, f->part, from, all, even);
+        const rt_vec3 differ =
+            rt_scale(rt_sub(even, all), rt__spread(image, f->part, from));
         const rt_vec3 light = rt__per_albedo(indirect, g->albedo);
         const float d = rt__mean(rt__per_albedo(differ, g->albedo));
         if (!rt__is_moderate(light) || !(fabsf(d) <= 1e15f))
@@ -3369,6 +3388,7 @@ static inline void rt__differ_row(const rt__finish *f, int y)
 /* The outcome, and as much of the noisy pixels as there is doubt. */
 static inline void rt__store_row(const rt__finish *f, int y)
 {
+    const rt_image *image = f->image;
     float *const *light = f->light[!(RT__PASSES & 1)];
     float *differ = f->light[RT__PASSES & 1][0], *noise = f->light[RT__PASSES & 1][1];
     rt__average_row(f, y, f->variance[0], differ);
@@ -3377,14 +3397,13 @@ static inline void rt__store_row(const rt__finish *f, int y)
         const int to = y * f->width + x, i = rt__at_row(f, y) + x;
         const rt_vec3 outcome = rt__get(light, i);
         const rt_vec3 back = rt_scale(rt_sub(rt__get(f->indirect, i), outcome),
-                                      rt__doubt(differ[i], noise[i], f->image->samples));
-        float spread;
-        const rt_guide *g = &f->image->guides[to];
+                                      rt__doubt(differ[i], noise[i], image->samples));
+        const rt_guide *g = &image->guides[to];
         f->result[to] =
             f->known[i] > 0.0f
-                ? rt_add(rt__part_of(f, to, g->direct, g->half, &spread),
+                ? rt_add(rt__part_of(image, f->part, to, g->direct, g->half),
                          rt_add(outcome, back))
-                : rt__part_of(f, to, f->image->pixels[to], f->image->half[to], &spread);
+                : rt__part_of(image, f->part, to, image->pixels[to], image->half[to]);
     }
 }
 
@@ -3403,11 +3422,9 @@ static inline void rt__all_rows(const rt__finish *f, int threads, rt__row_step *
 
 static inline rt_status rt__check_finish(const rt_image *image, int threads)
 {
-    if (!image || !image->pixels)
-        return RT_BAD_POINTER;
-    if (image->width < 1 || image->height < 1 || image->width > INT_MAX / image->height ||
-        image->done < 0 || image->done >= image->width * image->height)
-        return RT_BAD_SIZE;
+    const rt_status status = rt__check_image(image);
+    if (status != RT_OK)
+        return status;
     if (!image->half || !image->guides)
         return RT_BAD_GUIDES;
     if (image->samples < 2)
@@ -3490,11 +3507,10 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
                       rt__finish_part(image, RT__ODD, threads, both + count) == RT_OK;
     double squares = 0.0, sum = 0.0;
     for (size_t i = 0; good && i < count; i++) {
-        const int n = image->samples + (i < (size_t)image->done), odds = n / 2;
         const rt_dvec3 mean = rt_to_double(image->pixels[i]);
         const rt_dvec3 even = rt_to_double(image->half[i]);
-        const rt_dvec3 odd =
-            rt_dmad(mean, (double)(n - odds) / odds, rt_dsub(mean, even));
+        const rt_dvec3 odd = rt_to_double(
+            rt__part_of(image, RT__ODD, (int)i, image->pixels[i], image->half[i]));
         const rt_dvec3 a = rt_dsub(rt_to_double(both[i]), odd);
         const rt_dvec3 b = rt_dsub(rt_to_double(both[count + i]), even);
         const rt_dvec3 noise = rt_dsub(even, odd);

@@ -354,6 +354,7 @@ typedef struct run {
     demo_view view;
     rt_image image;
     rt_image clean; /* the same without noise, of so many samples; none: not yet there */
+    float clean_error;    /* its estimated error; below 0: not yet known */
     unsigned char *bytes; /* the image encoded, 3 a pixel, for PNG and window */
     double started;       /* in seconds, like the others */
     double line_due;      /* when the progress line may be printed again */
@@ -648,7 +649,16 @@ static rt_status denoise(run *r, const rt_image *image,
         return RT_OK;
     clean->width = image->width;
     clean->height = image->height;
+    r->clean_error = -1.0f;
     return finish(image, (int)r->s.threads, clean);
+}
+
+/* It takes a while, so once for a picture. */
+static float clean_error(run *r)
+{
+    if (r->clean_error < 0.0f)
+        r->clean_error = rt_denoised_error(&r->image, (int)r->s.threads);
+    return r->clean_error;
 }
 
 /* The picture that is to be saved, by the demo's own function if it has one. */
@@ -728,11 +738,9 @@ static rt_options options_of(run *r)
 static rt_status render(run *r, const rt_options *options)
 {
     rt_image *image = &r->image;
-    if (r->d->render)
-        return r->d->render(options, image);
     const int begun = image->samples;
-    const rt_status status = rt_render_pixels(call_pixel, r, options, image);
-    if (!r->s.denoise || image->samples == begun)
+    const rt_status status = render_own(r, options, image);
+    if (r->d->render || !r->s.denoise || image->samples == begun)
         return status;
     /* These pixels have no guides. rt.h looks for them, with the same numbers. */
     rt_image same = {.width = image->width, .height = image->height};
@@ -823,7 +831,7 @@ static bool finish(run *r, rt_status status, double took)
                (double)r->image.rays / took * 1e-6);
         if (picture(r) == &r->clean)
             printf("finished in %.2f s: error at most %.2f %%, ", finishing,
-                   100.0 * (double)rt_denoised_error(&r->image, (int)r->s.threads));
+                   100.0 * (double)clean_error(r));
         printf("wrote %s%s\n", r->s.out, status == RT_CANCELLED ? " (interrupted)" : "");
     }
     fflush(stdout);

@@ -62,9 +62,7 @@ typedef struct window {
     bool dragged;           /* since the button went down: it will be no click */
     float down_x, down_y;   /* where that was, on the screen */
     float mouse_x, mouse_y; /* in the picture, in its pixels */
-    float clean_error;      /* of the picture of so many rays, without noise */
-    uint64_t clean_rays;
-    int drafts; /* so far, and for so many seconds */
+    int drafts;             /* so far, and for so many seconds */
     double drafts_took;
     double polled, slowest; /* the longest time between two looks at the keyboard */
 } window;
@@ -142,6 +140,7 @@ static void begin_anew(run *r)
         r->s.denoise = false;
     forget(&r->image);
     forget(&w->other);
+    rt_image_clear(&r->clean);
     w->rendered = 0.0;
     w->changed = false;
 }
@@ -353,16 +352,6 @@ static bool is_draft(const run *r)
     const window *w = r->win;
     const rt_image *image = shows_other(r) ? &w->other : &r->image;
     return w->moving > 0.0 || (w->disturbed && image->samples == 0);
-}
-
-/* It takes a while, so once for a picture. */
-static float clean_error(run *r)
-{
-    window *w = r->win;
-    if (w->clean_rays != r->image.rays)
-        w->clean_error = rt_denoised_error(&r->image, (int)r->s.threads);
-    w->clean_rays = r->image.rays;
-    return w->clean_error;
 }
 
 static void set_title(run *r, const rt_image *shown, const char *pixel)
@@ -825,7 +814,7 @@ static bool have_display(void)
 static rt_image new_image(const run *r)
 {
     rt_image image = {.width = r->image.width, .height = r->image.height};
-    image.pixels = calloc((size_t)image.width * (size_t)image.height, sizeof(rt_vec3));
+    image.pixels = new_pixels(image.width, image.height);
     return image;
 }
 
@@ -886,6 +875,13 @@ static rt_vec3 call_pixel(const void *context, float x, float y, rt_rng *rng)
     return r->d->pixel(&r->view, x, y, rng);
 }
 
+/* By the demo itself. */
+static rt_status render_own(run *r, const rt_options *options, rt_image *image)
+{
+    return r->d->render ? r->d->render(options, image)
+                        : rt_render_pixels(call_pixel, r, options, image);
+}
+
 /* Direct light, or two samples without their noise, at once; smaller, where that takes
  * long. */
 static void draw_draft(run *r)
@@ -897,6 +893,7 @@ static void draw_draft(run *r)
     image->height = (2 * r->image.height - 1) / w->shrink + 1;
     const bool clean = is_denoised(r) && add_guides(image);
     forget(image);
+    rt_image_clear(&r->clean);
     run small = *r;
     small.view.width = image->width;
     small.view.height = image->height;
@@ -943,10 +940,8 @@ static rt_status refine(run *r)
     rt_status status;
     if (!is_own(r, stage) || (w->hold && w->comparison == BY_RT_H && r->d->live))
         status = r->d->live->render(stage, &r->view, &options, image);
-    else if (r->d->render)
-        status = r->d->render(&options, image);
     else
-        status = rt_render_pixels(call_pixel, r, &options, image);
+        status = render_own(r, &options, image);
     w->rendered += demo_seconds() - w->refining;
     w->refining = 0.0;
     return status;

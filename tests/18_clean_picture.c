@@ -548,13 +548,11 @@ static void test_a_picture_that_was_stopped(void **state)
     assert_int_equal(rt_denoise(&p.image, 0, &p.result), RT_OK);
     assert_int_equal(p.result.done, 600);
     /* odd = (5 all - 3 even) / 2 where there is one more, 2 all - even elsewhere */
-    rt__finish f = {.image = &p.image, .part = RT__ODD};
-    float spread;
     const rt_vec3 one = {1, 1, 1}, two = {2, 2, 2};
-    assert_vec(rt__part_of(&f, 599, one, two, &spread), -0.5f, -0.5f, -0.5f, 1e-6);
-    assert_close(spread, sqrt(3.75), 1e-6);
-    assert_vec(rt__part_of(&f, 600, one, two, &spread), 0, 0, 0, 0);
-    assert_close(spread, sqrt(2), 1e-6);
+    assert_vec(rt__part_of(&p.image, RT__ODD, 599, one, two), -0.5f, -0.5f, -0.5f, 1e-6);
+    assert_close(rt__spread(&p.image, RT__ODD, 599), sqrt(3.75), 1e-6);
+    assert_vec(rt__part_of(&p.image, RT__ODD, 600, one, two), 0, 0, 0, 0);
+    assert_close(rt__spread(&p.image, RT__ODD, 600), sqrt(2), 1e-6);
     free_picture(&p);
     free_picture(&fewer);
 }
