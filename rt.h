@@ -1671,6 +1671,11 @@ typedef struct rt_image {
                       is */
     rt_guide *guides; /* NULL, or one for each pixel, for what rt_denoise wants to know:
                       means over the same samples. To be added or taken away as half is */
+    int first,
+        count; /* 0, 0: the whole picture. Else this is a part of it: all the memory
+                      is for count pixels, those of the picture from number first on
+                      (pixel (x, y) is number y * width + x). Parts that were rendered
+                      apart, on any machine, have together the same bits as the whole */
 } rt_image;
 
 /* Begin a new picture in the same memory. */
@@ -1793,9 +1798,9 @@ RTDEF float rt_image_error(const rt_image *image);
  * What the guides do not show is lost where it is fainter than the noise, as are shadows
  * in indirect light. The more samples there are, the more of it is back.
  *
- * RT_BAD_POINTER, RT_BAD_SIZE (also if result has another), RT_BAD_SAMPLES (less than
- * 2), RT_BAD_GUIDES (no guides or no half), RT_BAD_THREADS, RT_NO_MEMORY: then the result
- * is untouched. */
+ * RT_BAD_POINTER, RT_BAD_SIZE (also if result has another size, or one of them is a part
+ * of a picture), RT_BAD_SAMPLES (less than 2), RT_BAD_GUIDES (no guides or no half),
+ * RT_BAD_THREADS, RT_NO_MEMORY: then the result is untouched. */
 RTDEF rt_status rt_denoise(const rt_image *image, int threads, rt_image *result);
 
 /* The estimated error of what rt_denoise makes of the image, in units of rt_image_error:
@@ -2053,7 +2058,8 @@ RTDEF const char *rt_status_text(rt_status status)
                "set the pointer, or the count to 0";
     case RT_BAD_SIZE:
         return "image: make width and height at least 1, their product at most 2^31 - 1, "
-               "done at least 0 and less than that; the result of rt_denoise as large";
+               "done at least 0 and less than that; first and count 0, or a part of the "
+               "picture, which rt_denoise does not take; its result as large";
     case RT_BAD_SAMPLES:
         return "samples: make options.samples and image.samples at least 0, and both "
                "together at most 2^31 - 1; rt_denoise wants 2 in the image";
@@ -2062,8 +2068,11 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_THREADS: return "threads: make it 1 to 1024, or 0 for all cores";
     case RT_BAD_SAMPLER: return "sampler: make it RT_SOBOL or RT_RANDOM";
     case RT_BAD_ERROR:
-        return "error: make it at least 0, and give image.half memory, or make it 0";
-    case RT_BAD_SECONDS: return "seconds: make it at least 0; 0 is no limit";
+        return "error: make it at least 0, and give image.half memory, or make it 0, as "
+               "it must be for a part of a picture: others would stop elsewhere";
+    case RT_BAD_SECONDS:
+        return "seconds: make it at least 0; 0 is no limit, as it must be for a part of "
+               "a picture: others would stop elsewhere";
     case RT_BAD_LANES: return "lanes: make it 0, 1, or what rt_lane_count(0) says";
     case RT_BAD_BVH:
         return "bvh: build it with rt_build_bvh after the last change of the scene, or "
@@ -2544,13 +2553,19 @@ static inline void rt__add_to_mean(rt_vec3 *mean, rt_vec3 *rest, int n, rt_vec3 
         *rest = rt_to_float(rt_dsub(sum, rt_to_double(*mean)));
 }
 
+/* How many pixels the image has memory for. */
+static inline int rt__pixel_count(const rt_image *image)
+{
+    return image->count > 0 ? image->count : image->width * image->height;
+}
+
 static inline void rt__record(rt_image *image, int sample, int i, rt_vec3 value)
 {
     rt_vec3 *rest = image->rest;
     rt__add_to_mean(&image->pixels[i], rest ? rest + i : NULL, sample, value);
     if (!image->half || sample % 2 != 0)
         return;
-    rest = rest ? rest + (size_t)image->width * (size_t)image->height + i : NULL;
+    rest = rest ? rest + (size_t)rt__pixel_count(image) + i : NULL;
     rt__add_to_mean(&image->half[i], rest, sample / 2, value);
 }
 
@@ -2630,7 +2645,7 @@ RTDEF float rt_image_error(const rt_image *image)
 {
     if (!image || !image->pixels || !image->half || image->samples < 2)
         return INFINITY;
-    const int count = image->width * image->height;
+    const int count = rt__pixel_count(image);
     double squares = 0.0, sum = 0.0;
     for (int i = 0; i < count; i++) {
         const rt_dvec3 mean = rt_to_double(image->pixels[i]);
@@ -2661,8 +2676,12 @@ static inline rt_status rt__check_image(const rt_image *image)
 {
     if (!image || !image->pixels)
         return RT_BAD_POINTER;
-    if (image->width < 1 || image->height < 1 || image->width > INT_MAX / image->height ||
-        image->done < 0 || image->done >= image->width * image->height)
+    if (image->width < 1 || image->height < 1 || image->width > INT_MAX / image->height)
+        return RT_BAD_SIZE;
+    const int all = image->width * image->height;
+    if (image->first < 0 || image->count < 0 || image->count > all - image->first ||
+        (image->count == 0 && image->first > 0) || image->done < 0 ||
+        image->done >= rt__pixel_count(image))
         return RT_BAD_SIZE;
     return RT_OK;
 }
@@ -2679,9 +2698,9 @@ static inline rt_status rt__check_job(const rt_image *image, const rt_options *o
         return RT_BAD_THREADS;
     if (o->sampler != RT_SOBOL && o->sampler != RT_RANDOM)
         return RT_BAD_SAMPLER;
-    if (!(o->error >= 0.0f) || (o->error > 0.0f && !image->half))
+    if (!(o->error >= 0.0f) || (o->error > 0.0f && (!image->half || image->count > 0)))
         return RT_BAD_ERROR;
-    if (!(o->seconds >= 0.0f))
+    if (!(o->seconds >= 0.0f) || (o->seconds > 0.0f && image->count > 0))
         return RT_BAD_SECONDS;
     return RT_OK;
 }
@@ -2855,7 +2874,7 @@ static inline void rt__work(rt__team *team, int thread)
 {
     const rt__job *job = team->job;
     rt_image *image = job->image;
-    const int count = image->width * image->height;
+    const int count = rt__pixel_count(image);
     const bool looks_up = job->options.progress || job->options.seconds > 0.0f;
     rt_watch *watch = thread == 0 && looks_up ? &team->watch : NULL;
     rt_vec3 values[RT__CHUNK];
@@ -2871,7 +2890,8 @@ static inline void rt__work(rt__team *team, int thread)
             first = team->first_pixel;
         rays = 0;
         for (int sample = task.from; sample < task.to; sample++) {
-            rays += job->step(job, sample, first, last, watch, values, wanted);
+            rays += job->step(job, sample, image->first + first, image->first + last,
+                              watch, values, wanted);
             while (sample == task.from && !rt__may_record(team, &task, thread))
                 rt__tick(watch);
             rt__lock(&team->writing[thread]);
@@ -2967,7 +2987,7 @@ static inline rt_status rt__run(const rt__job *job)
 {
     const rt_options *o = &job->options;
     rt_image *image = job->image;
-    const int count = image->width * image->height;
+    const int count = rt__pixel_count(image);
     const size_t vectors = (size_t)count * (image->half ? 2 : 1);
     int samples = o->samples;
     if (samples == 0)
@@ -3094,6 +3114,7 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
         (path->max_shadows > 0 && !path->shadows))
         return RT_BAD_POINTER;
     copy = *image;
+    copy.first = copy.count = 0; /* any pixel of the picture */
     const rt_status status = rt__set_job(&job, scene, camera, options, &copy);
     if (status != RT_OK)
         return status;
@@ -3425,6 +3446,8 @@ static inline rt_status rt__check_finish(const rt_image *image, int threads)
     const rt_status status = rt__check_image(image);
     if (status != RT_OK)
         return status;
+    if (image->count > 0) /* a part lacks the neighbours of its pixels */
+        return RT_BAD_SIZE;
     if (!image->half || !image->guides)
         return RT_BAD_GUIDES;
     if (image->samples < 2)
@@ -3482,8 +3505,8 @@ RTDEF rt_status rt_denoise(const rt_image *image, int threads, rt_image *result)
     if (!result || !result->pixels)
         return RT_BAD_POINTER;
     rt_status status = rt__check_finish(image, threads);
-    if (status == RT_OK &&
-        (result->width != image->width || result->height != image->height))
+    if (status == RT_OK && (result->width != image->width ||
+                            result->height != image->height || result->count > 0))
         status = RT_BAD_SIZE;
     if (status == RT_OK)
         status = rt__finish_part(image, RT__ALL, threads, result->pixels);

@@ -549,6 +549,80 @@ static void test_thread_count(void **state)
 #endif
 }
 
+/* A picture cut at random places has the same bits as the whole, in all that it records. */
+static void test_parts(void **state)
+{
+    (void)state;
+    enum { W = 20, H = 15, ALL = W * H, CUTS = 60 };
+    static rt_vec3 whole[ALL], half[ALL], parts[ALL], part_half[ALL];
+    static rt_guide guides[ALL], part_guides[ALL];
+    rt_image image = {W, H, whole, .half = half, .guides = guides};
+    const rt_options options = {.samples = 5, .bounces = 3, .threads = 2};
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image), RT_OK);
+    rt_rng rng = rt_rng_start(0, 0, 0);
+    for (int cut = 0; cut < CUTS; cut++) {
+        uint64_t rays = 0;
+        memset(parts, 0xff, sizeof parts);
+        for (int first = 0, count; first < ALL; first += count) {
+            count = 1 + (int)(rt_random(&rng) * (cut % 3 == 0 ? 9.0f : 150.0f));
+            count = count < ALL - first ? count : ALL - first;
+            rt_image part = {W, H, parts + first, .half = part_half + first};
+            part.guides = part_guides + first;
+            part.first = first;
+            part.count = count;
+            for (int samples = 2; samples <= 3; samples++) { /* and gone on with */
+                const rt_options some = {.samples = samples,
+                                         .bounces = 3,
+                                         .threads = 1 + cut % 2,
+                                         .lanes = cut % 5 == 0};
+                assert_int_equal(rt_render(&scene_indirect, &room_camera, &some, &part),
+                                 RT_OK);
+            }
+            assert_int_equal(part.samples, 5);
+            rays += part.rays;
+        }
+        assert_memory_equal(parts, whole, sizeof whole);
+        assert_memory_equal(part_half, half, sizeof half);
+        assert_memory_equal(part_guides, guides, sizeof guides);
+        assert_int_equal(rays, image.rays);
+    }
+}
+
+static void test_bad_parts(void **state)
+{
+    (void)state;
+    static rt_vec3 pixels[12], half[12];
+    static const struct {
+        int first, count;
+        float error, seconds;
+        rt_status status;
+    } bad[] = {
+        {-1, 2, 0, 0, RT_BAD_SIZE},     {0, -1, 0, 0, RT_BAD_SIZE},
+        {11, 2, 0, 0, RT_BAD_SIZE},     {1, INT_MAX, 0, 0, RT_BAD_SIZE},
+        {3, 0, 0, 0, RT_BAD_SIZE},      {INT_MAX, 1, 0, 0, RT_BAD_SIZE},
+        {0, 12, 0.1f, 0, RT_BAD_ERROR}, {2, 3, 0, 0.1f, RT_BAD_SECONDS},
+        {11, 1, 0, 0, RT_OK},           {0, 12, 0, 0, RT_OK},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        rt_image image = {4, 3, pixels, .half = half};
+        image.first = bad[i].first;
+        image.count = bad[i].count;
+        const rt_options options = {
+            .samples = 2, .error = bad[i].error, .seconds = bad[i].seconds};
+        assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image),
+                         bad[i].status);
+    }
+    rt_image image = {.width = 4,
+                      .height = 3,
+                      .pixels = pixels}; /* a path may be asked for of any pixel */
+    image.first = 11;
+    image.count = 1;
+    rt_path path = {0};
+    assert_int_equal(
+        rt_trace_pixel(&scene_indirect, &room_camera, NULL, &image, 0, 0, 0, &path),
+        RT_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -576,6 +650,8 @@ int main(void)
         cmocka_unit_test(test_check_accepts_what_is_at_the_limits),
         cmocka_unit_test(test_every_status_has_a_text_of_its_own),
         cmocka_unit_test(test_thread_count),
+        cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_bad_parts),
     };
     return cmocka_run_group_tests_name("8 pictures", tests, NULL, NULL);
 }
