@@ -30,7 +30,8 @@ CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 export OMP_WAIT_POLICY ?= passive
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09 demo10
-HEADERS  = rt.h demos/demo.h demos/window.h demos/live.h demos/scene.h demos/explain.h demos/loops.h demos/noise.h demos/clean.h
+HEADERS := rt.h $(wildcard demos/*.h)
+PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 .PHONY: help deps demos test golden check bench docs starters try grade install clean $(DEMOS)
@@ -56,10 +57,14 @@ $(DEMOS): %: $(BUILD)/%
 	$(BUILD)/$@ $(ARGS)
 
 .SECONDEXPANSION:
-$(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/demo.o $(HEADERS)
-	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/demo.o $(LDFLAGS) $(SDL_LIBS) -lm
+$(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/program.a $(HEADERS)
+	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/program.a $(LDFLAGS) $(SDL_LIBS) -lm
 
-$(BUILD)/demo.o: demos/demo.c $(HEADERS)
+$(BUILD)/program.a: $(PROGRAM)
+	@rm -f $@
+	ar -rcs $@ $^
+
+$(PROGRAM): $(BUILD)/%.o: demos/%.c $(HEADERS)
 	@.ci/deps found '$(CC)' sdl2 stb openmp SDL2_gfx
 	@mkdir -p $(BUILD)
 	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) -c -o $@ $<
@@ -82,7 +87,7 @@ starters: ## files to begin with, one for each routine, in build/starters
 	@tests/classroom/starter $(BUILD)/starters
 	@echo "$(BUILD)/starters: copy one, fill it in, then make try FILE=..."
 
-try: $(BUILD)/demo.o ## your own routine in place of rt.h's: FILE=my_hit_sphere.c
+try: $(BUILD)/program.a ## your own routine in place of rt.h's: FILE=my_hit_sphere.c
 	@.ci/deps found '$(CC)' cmocka libcjson
 	@CC='$(CC)' FLAGS='$(FLAGS) $(OPENMP)' LIBS='$(LDFLAGS) $(SDL_LIBS)' BUILD='$(BUILD)' \
 	    tests/classroom/run try "$$FILE" $(ARGS)

@@ -1,4 +1,5 @@
-/* What the demos share: command line, window, progress, files. No ray tracing here.
+/* What a demo is, and what there is for it: main.c is the program around it, viewer.h what the
+ * reader can do with its picture. No ray tracing here.
  *
  * A demo supplies the colour of one point of the film, or renders the whole image, and
  * demo_main does the rest. */
@@ -6,7 +7,7 @@
 #define DEMO_H
 
 #include "../rt.h"
-#include <stdio.h>
+#include "text.h"
 
 /* What pixel() may want to know about the picture. */
 typedef struct demo_view {
@@ -31,7 +32,9 @@ typedef struct demo_line {
     float weight; /* 0 to 1: how much of the light from here arrives */
 } demo_line;
 
-/* What the window can do with the scene of a demo; the demos have it from live.h. */
+/* What the viewer can do with the scene of a demo; the demos have it from live.h. */
+enum { DEMO_STATE = 256 }; /* bytes, at most, for save */
+
 typedef struct demo_live {
     /* The picture of chapter 1 to 7 of the same view; and its direct light only, quickly. */
     rt_status (*render)(int stage, const demo_view *view, const rt_options *options,
@@ -48,14 +51,17 @@ typedef struct demo_live {
     const char *(*name)(int thing);
     void (*drag)(int thing, const demo_view *view, float right_pixels, float up_pixels,
                  bool over_the_floor);
-    /* To standard output: C code that brings this view back. */
-    void (*print)(void);
+    /* C code that brings this view back. */
+    void (*print)(text *out);
     /* Lines: the things in the room; and the path of one sample of the pixel (x, y), which
      * is told in words, too, in short and as --explain does (NULL: not wanted). */
     int (*outlines)(int stage, const demo_view *view, demo_line *lines, int most);
     int (*path)(int stage, const demo_view *view, const rt_options *options,
                 const rt_image *image, int x, int y, int sample, demo_line *lines,
-                int most, FILE *summary, FILE *words);
+                int most, text *summary, text *words);
+    /* All that moves, to memory, and back: the number of bytes, at most DEMO_STATE. */
+    size_t (*save)(void *to);
+    void (*load)(const void *from);
 } demo_live;
 
 typedef struct demo {
@@ -92,11 +98,6 @@ typedef struct demo {
 /* For encode: the byte in proportion to the light, and the byte that a screen wants. */
 unsigned char demo_linear(float value);
 unsigned char demo_gamma(float value);
-
-/* rt.h's own rt_render, also where a student's routines stand in the place of rt.h's. */
-typedef rt_status demo_renderer(const rt_scene *scene, const rt_camera *camera,
-                                const rt_options *options, rt_image *image);
-extern demo_renderer *const demo_rt_render;
 
 /* Seconds since some moment. */
 double demo_seconds(void);

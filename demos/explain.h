@@ -4,7 +4,7 @@
 #define EXPLAIN_H
 
 #include "scene.h"
-#include <stdio.h>
+#include "text.h"
 
 static const char *shape_name(int shape)
 {
@@ -15,21 +15,21 @@ static const char *shape_name(int shape)
     return names[shape + 1];
 }
 
-static void print_vec(FILE *out, const char *before, rt_vec3 v, const char *after)
+static void print_vec(text *out, const char *before, rt_vec3 v, const char *after)
 {
-    fprintf(out, "%s(%.6g, %.6g, %.6g)%s", before, (double)v.x, (double)v.y, (double)v.z,
-            after);
+    text_add(out, "%s(%.6g, %.6g, %.6g)%s", before, (double)v.x, (double)v.y, (double)v.z,
+             after);
 }
 
-static void print_vertex(FILE *out, const rt_path *path, int n)
+static void print_vertex(text *out, const rt_path *path, int n)
 {
     const rt_vertex *v = &path->vertices[n];
-    fprintf(out, "  +- %s %s", n == 0 ? "camera ray meets" : "goes on to",
-            shape_name(v->shape));
+    text_add(out, "  +- %s %s", n == 0 ? "camera ray meets" : "goes on to",
+             shape_name(v->shape));
     if (v->shape < 0) {
         print_vec(out, ", background ", v->light, "");
     } else {
-        fprintf(out, " at t = %.6g\n", (double)v->hit.t);
+        text_add(out, " at t = %.6g\n", (double)v->hit.t);
         print_vec(out, "  |    P ", v->hit.point, "");
         print_vec(out, ", N ", v->hit.normal, "");
     }
@@ -40,29 +40,30 @@ static void print_vertex(FILE *out, const rt_path *path, int n)
         if (s->vertex != n)
             continue;
         asked = true;
-        fprintf(out, "  |    lamp: cosine %.6g, d^2 %.6g, ", (double)s->cosine,
-                (double)s->dd);
+        text_add(out, "  |    lamp: cosine %.6g, d^2 %.6g, ", (double)s->cosine,
+                 (double)s->dd);
         if (s->blocker < 0)
             print_vec(out, "seen, sends ", s->light_sent, "\n");
         else
-            fprintf(out, "hidden by %s, %.0f %% of the way\n", shape_name(s->blocker),
-                    100.0 * (double)s->t);
+            text_add(out, "hidden by %s, %.0f %% of the way\n", shape_name(s->blocker),
+                     100.0 * (double)s->t);
     }
     if (!asked && v->shape >= 0)
-        fprintf(out, "  |    %s\n",
-                v->hit.material->mirror ? "a mirror: the light comes from where it points"
-                                        : "lamp: behind the surface");
+        text_add(out, "  |    %s\n",
+                 v->hit.material->mirror
+                     ? "a mirror: the light comes from where it points"
+                     : "lamp: behind the surface");
     print_vec(out, "  |    adds ", rt_mul(v->throughput, v->light), "\n");
 }
 
 /* One sample, as rt_trace_pixel has written it down. */
-static void print_path(FILE *out, const rt_path *path, int sample)
+static void print_path(text *out, const rt_path *path, int sample)
 {
-    fprintf(out, "sample %d\n", sample);
+    text_add(out, "sample %d\n", sample);
     for (int n = 0; n < path->vertex_count && n < path->max_vertices; n++)
         print_vertex(out, path, n);
     if (path->vertex_count > path->max_vertices)
-        fprintf(out, "  +- and %d more\n", path->vertex_count - path->max_vertices);
+        text_add(out, "  +- and %d more\n", path->vertex_count - path->max_vertices);
     print_vec(out, "  = ", path->value, "\n");
 }
 
@@ -78,22 +79,29 @@ static rt_path empty_path(void)
                      .max_shadows = MOST_VERTICES};
 }
 
+enum { MOST_WORDS = 1 << 16 }; /* of one path */
+
 static inline rt_status explain_indirect(const rt_options *options, const rt_image *image,
                                          int x, int y)
 {
+    static char words[MOST_WORDS];
     rt_path path = empty_path();
     rt_vec3 mean = {0, 0, 0};
+    text out;
     for (int k = 0; k < options->samples; k++) {
         const rt_status status =
             rt_trace_pixel(&scene_indirect, &room_camera, options, image, x, y, k, &path);
         if (status != RT_OK)
             return status;
-        print_path(stdout, &path, k);
+        out = text_in(words, sizeof words);
+        print_path(&out, &path, k);
+        printf("%s", words);
         mean = rt_add(mean, rt_scale(rt_sub(path.value, mean), 1.0f / (float)(k + 1)));
     }
-    print_vec(stdout, "mean: ", mean, "");
-    printf(", as bytes %d, %d, %d\n", rt_encode(mean.x, 2.2), rt_encode(mean.y, 2.2),
-           rt_encode(mean.z, 2.2));
+    out = text_in(words, sizeof words);
+    print_vec(&out, "mean: ", mean, "");
+    printf("%s, as bytes %d, %d, %d\n", words, rt_encode(mean.x, 2.2),
+           rt_encode(mean.y, 2.2), rt_encode(mean.z, 2.2));
     return RT_OK;
 }
 

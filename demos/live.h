@@ -1,4 +1,4 @@
-/* The room that moves: what the window asks of the scene of a demo, in place of scene.h. The
+/* The room that moves: what the viewer asks of the scene of a demo, in place of scene.h. The
  * stages 1 to 7 are the chapters' pictures of the same view, by rt.h; the demo's own function
  * takes the place of one of them. */
 #ifndef LIVE_H
@@ -267,52 +267,62 @@ static void live_drag(int thing, const demo_view *view, float right_pixels,
  * The view: back to the first, and as C code
  * ------------------------------------------------------------------------------------- */
 
-static void live_reset(void)
+/* All that moves. */
+typedef struct live_state {
+    rt_camera camera;
+    rt_vec3 pivot, ball, mirror, lamp;
+    rt_box cube;
+} live_state;
+
+static size_t live_save(void *to)
 {
-    static bool started;
-    static struct {
-        rt_camera camera;
-        rt_vec3 ball, mirror;
-        rt_box cube;
-        rt_light light, dim_light;
-    } first;
-    if (!started) { /* the first call, from main, keeps what there is */
-        first.camera = room_camera;
-        first.ball = room_spheres[0].center;
-        first.mirror = room_spheres[6].center;
-        first.cube = room_cube;
-        first.light = room_light;
-        first.dim_light = room_dim_light;
-    }
-    started = true;
-    room_camera = first.camera;
-    live_pivot = rt_vec(0, 7, 0);
-    room_spheres[0].center = first.ball;
-    room_spheres[6].center = first.mirror;
-    room_cube = first.cube;
-    room_light = first.light;
-    room_dim_light = first.dim_light;
+    const live_state now = {room_camera,         live_pivot,        live_middle(BALL),
+                            live_middle(MIRROR), live_middle(LAMP), room_cube};
+    memcpy(to, &now, sizeof now);
+    return sizeof now;
 }
 
-static void live_print_vec(const char *before, rt_vec3 v, const char *after)
+static void live_load(const void *from)
 {
-    printf("%s{%#.9gf, %#.9gf, %#.9gf}%s", before, (double)v.x, (double)v.y, (double)v.z,
-           after);
+    live_state then;
+    memcpy(&then, from, sizeof then);
+    room_camera = then.camera;
+    live_pivot = then.pivot;
+    room_cube = then.cube; /* not by its middle, which is rounded */
+    live_place(BALL, then.ball);
+    live_place(MIRROR, then.mirror);
+    live_place(LAMP, then.lamp);
+}
+
+static void live_reset(void)
+{
+    static live_state first;
+    static bool started;
+    if (!started) /* the first call keeps what there is */
+        live_save(&first);
+    started = true;
+    live_load(&first);
+}
+
+static void live_print_vec(text *out, const char *before, rt_vec3 v, const char *after)
+{
+    text_add(out, "%s{%#.9gf, %#.9gf, %#.9gf}%s", before, (double)v.x, (double)v.y,
+             (double)v.z, after);
 }
 
 /* As the lines of scene.h that would show it. (%.9g brings each float back exactly; the #
  * gives it a point.) */
-static void live_print(void)
+static void live_print(text *out)
 {
-    live_print_vec("rt_camera room_camera = {", room_camera.position, ", ");
-    live_print_vec("", room_camera.direction, ", ");
-    live_print_vec("", room_camera.up, "");
-    printf(", %#.9gf};\n", (double)room_camera.fov_y);
-    live_print_vec("ball ", room_spheres[0].center, ", ");
-    live_print_vec("mirror ", room_spheres[6].center, ", ");
-    live_print_vec("cube ", room_cube.min, " to ");
-    live_print_vec("", room_cube.max, ", ");
-    live_print_vec("lamp ", room_light.position, "\n");
+    live_print_vec(out, "rt_camera room_camera = {", room_camera.position, ", ");
+    live_print_vec(out, "", room_camera.direction, ", ");
+    live_print_vec(out, "", room_camera.up, "");
+    text_add(out, ", %#.9gf};\n", (double)room_camera.fov_y);
+    live_print_vec(out, "ball ", room_spheres[0].center, ", ");
+    live_print_vec(out, "mirror ", room_spheres[6].center, ", ");
+    live_print_vec(out, "cube ", room_cube.min, " to ");
+    live_print_vec(out, "", room_cube.max, ", ");
+    live_print_vec(out, "lamp ", room_light.position, "\n");
 }
 
 /* -------------------------------------------------------------------------------------
@@ -410,31 +420,32 @@ static void live_draw_path(const rt_path *path, live_lines *l)
 }
 
 /* Two lines for each vertex, to stand beside the plan. */
-static void live_summary(const rt_path *path, FILE *text)
+static void live_summary(const rt_path *path, text *out)
 {
     for (int n = 0; n < path->vertex_count; n++) {
         const rt_vertex *v = &path->vertices[n];
         const rt_vec3 T = v->throughput, adds = rt_mul(T, v->light), N = v->hit.normal;
-        fprintf(text, "%d %s", n, shape_name(v->shape));
+        text_add(out, "%d %s", n, shape_name(v->shape));
         if (v->shape >= 0)
-            fprintf(text, ", t %.4g, N (%.2f %.2f %.2f)", (double)v->hit.t, (double)N.x,
-                    (double)N.y, (double)N.z);
+            text_add(out, ", t %.4g, N (%.2f %.2f %.2f)", (double)v->hit.t, (double)N.x,
+                     (double)N.y, (double)N.z);
         for (int i = 0; i < path->shadow_count; i++)
             if (path->shadows[i].vertex == n) {
                 const int blocker = path->shadows[i].blocker;
-                fprintf(text, ", lamp %s%s", blocker < 0 ? "seen" : "behind ",
-                        blocker < 0 ? "" : shape_name(blocker));
+                text_add(out, ", lamp %s%s", blocker < 0 ? "seen" : "behind ",
+                         blocker < 0 ? "" : shape_name(blocker));
             }
-        fprintf(text, "\n  throughput %.3f %.3f %.3f, adds %.4f %.4f %.4f\n", (double)T.x,
-                (double)T.y, (double)T.z, (double)adds.x, (double)adds.y, (double)adds.z);
+        text_add(out, "\n  throughput %.3f %.3f %.3f, adds %.4f %.4f %.4f\n", (double)T.x,
+                 (double)T.y, (double)T.z, (double)adds.x, (double)adds.y,
+                 (double)adds.z);
     }
-    fprintf(text, "= %.4f %.4f %.4f\n", (double)path->value.x, (double)path->value.y,
-            (double)path->value.z);
+    text_add(out, "= %.4f %.4f %.4f\n", (double)path->value.x, (double)path->value.y,
+             (double)path->value.z);
 }
 
 static int live_path(int stage, const demo_view *view, const rt_options *options,
                      const rt_image *image, int x, int y, int sample, demo_line *lines,
-                     int most, FILE *summary, FILE *words)
+                     int most, text *summary, text *words)
 {
     live_lines l = {lines, most, 0};
     rt_path path = empty_path();
@@ -464,8 +475,8 @@ static int live_path(int stage, const demo_view *view, const rt_options *options
     return l.count;
 }
 
-static const demo_live live_room = {live_render, live_draft, live_orbit,    live_pan,
-                                    live_zoom,   live_reset, live_pick,     live_name,
-                                    live_drag,   live_print, live_outlines, live_path};
+static const demo_live live_room = {
+    live_render, live_draft, live_orbit, live_pan,      live_zoom, live_reset, live_pick,
+    live_name,   live_drag,  live_print, live_outlines, live_path, live_save,  live_load};
 
 #endif

@@ -7,7 +7,7 @@ cc=${CC:-cc} build=${BUILD:-build} page=docs/mistakes.md pictures=docs/images/mi
 work=$(mktemp -d "$build/gallery.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 export OMP_WAIT_POLICY=passive LC_ALL=C
-flags="-std=c99 -O2 -fno-math-errno -ffp-contract=off -w -I. -DRT_STATIC"
+flags="-std=c99 -O2 -fno-math-errno -ffp-contract=off -w -I."
 openmp=$(.ci/deps openmp "$cc")
 
 field() { # FILE NAME: from the comment at the top of a mistake, on one line
@@ -17,9 +17,10 @@ field() { # FILE NAME: from the comment at the top of a mistake, on one line
 }
 
 render() { # NAME SUBMISSION OPTIONS
-    $cc $flags $openmp "-DSUBMISSION=\"$2\"" -o "$work/$1" tests/classroom/show.c \
-        "$build/demo.o" $(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) -lm &&
-        "$work/$1" 240 180 --samples 16 --lanes 1 --no-window --quiet --out "$work/$1.png" $3
+    grep -q RT_IMPLEMENTATION "$2" && static=-DRT_STATIC || static= # program.a has another
+    $cc $flags $static $openmp "-DSUBMISSION=\"$2\"" -o "$work/$1" tests/classroom/show.c \
+        "$build/program.a" $(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) -lm &&
+        "$work/$1" 240 180 --samples 16 --no-window --quiet --out "$work/$1.png" $3
 }
 
 red() { # NAME FILE: which test of its chapter goes red on it, the first

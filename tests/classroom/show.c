@@ -1,13 +1,12 @@
-/* The room by the student's routines, to look at: cc -DRT_STATIC -DSUBMISSION='"file.c"' show.c
- * demo.o; static, since demo.o has another rt_render, with rt.h's routines. */
+/* The room by the student's routines, to look at: cc -DSUBMISSION='"file.c"' show.c program.a. */
 #include SUBMISSION
 
-#define RT_IMPLEMENTATION
 #include "../../demos/live.h"
 
-static rt_status render(const rt_options *options, rt_image *image)
+static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)
 {
-    return rt_render(&scene_indirect, &room_camera, options, image);
+    const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
+    return rt_radiance(&scene_indirect, &ray, view->bounces, rng);
 }
 
 static rt_status finish(const rt_image *image, int threads, rt_image *result)
@@ -20,24 +19,13 @@ static unsigned char encode(float value)
     return rt_encode(value, 2.2);
 }
 
-/* What the window compares with: rt.h's own. */
-static rt_status right(int stage, const demo_view *view, const rt_options *options,
-                       rt_image *image)
-{
-    if (stage < 7)
-        return live_render(stage, view, options, image);
-    return demo_rt_render(&scene_indirect, &room_camera, options, image);
-}
-
 int main(int argc, char **argv)
 {
-    demo_live live = live_room;
-    live.render = right;
     return demo_main(argc, argv,
                      &(demo){.name = "try",
                              .title = "Your own routine",
-                             .render = render,
-                             .live = &live,
+                             .pixel = pixel,
+                             .live = &live_room,
                              .finish = finish,
                              .explain = explain_indirect,
                              .encode = encode,

@@ -1,0 +1,24 @@
+/* The command line of the demos. */
+#ifndef COMMAND_H
+#define COMMAND_H
+
+#include "demo.h"
+
+enum { COMMAND_PIXELS = 67108864 }; /* at most: 8192 x 8192 */
+
+typedef struct settings {
+    long long width, height, bounces, threads, lanes, seed;
+    long long samples;    /* 0: as many as error and seconds allow */
+    float error, seconds; /* 0: not wanted */
+    rt_sampler sampler;
+    const char *out;
+    bool window, preview, quiet, help, explain, denoise;
+    long x, y; /* the pixel to explain */
+} settings;
+
+/* What the words say, into settings that hold the defaults. False: one of them is wrong, and
+ * what is wrong has been printed. */
+bool command_parse(const demo *d, int argc, char **argv, settings *s);
+void command_help(const demo *d);
+
+#endif

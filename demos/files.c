@@ -1,0 +1,150 @@
+/* Pictures as files: see files.h. They are written under another name and renamed when complete. */
+#define _DEFAULT_SOURCE /* stb */
+#define _DARWIN_C_SOURCE
+#define _XOPEN_SOURCE 700 /* stat, realpath */
+#include "files.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+
+static bool file_error(const char *who, const char *path)
+{
+    fprintf(stderr, "%s: cannot write '%s': %s\n", who, path, strerror(errno));
+    return false;
+}
+
+/* A new file in the folder of path, for rename; *name is to be freed. NULL, with errno, on
+ * failure. */
+static FILE *open_beside(const char *path, char **name)
+{
+    const char *slash = strrchr(path, '/');
+    const int folder = slash ? (int)(slash - path) + 1 : 0;
+    const size_t size = (size_t)folder + 32;
+    FILE *file = NULL;
+    *name = strlen(path) < INT_MAX ? malloc(size) : NULL;
+    for (int i = 1; *name && !file && i < 100; i++) {
+        snprintf(*name, size, "%.*s.rt-%d.part", folder, path, i);
+        file = fopen(*name, "wbx"); /* x: never an existing file */
+        if (!file && errno != EEXIST)
+            break;
+    }
+    return file;
+}
+
+/* Devices and pipes are written in place; renaming would replace them by a file. */
+static bool written_in_place(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+/* Said before the rendering, not after it. */
+bool files_can_write(const char *who, const char *path)
+{
+    struct stat info;
+    if (written_in_place(path))
+        return true;
+    if (stat(path, &info) == 0) {
+        errno = EISDIR;
+        if (S_ISDIR(info.st_mode))
+            return file_error(who, path);
+    } else if (errno != ENOENT) { /* a name that is too long, a file as folder */
+        return file_error(who, path);
+    }
+    char *name;
+    FILE *file = open_beside(path, &name);
+    const bool good = file != NULL || file_error(who, path);
+    if (good) {
+        fclose(file);
+        remove(name);
+    }
+    free(name);
+    return good;
+}
+
+static bool write_file(const char *who, const char *given, const void *bytes, size_t size)
+{
+    char *name = NULL, *real = realpath(given, NULL); /* behind a symbolic link */
+    const char *path = real ? real : given;
+    const bool in_place = written_in_place(path);
+    FILE *file = in_place ? fopen(path, "wb") : open_beside(path, &name);
+    bool good = file != NULL;
+    if (good) {
+        good = fwrite(bytes, 1, size, file) == size && fflush(file) == 0;
+        const int error = errno;
+        if (fclose(file) != 0)
+            good = false;
+        else
+            errno = error;
+        if (good && !in_place)
+            good = rename(name, path) == 0;
+        if (!good) {
+            file_error(who, given);
+            if (!in_place)
+                remove(name);
+        }
+    } else {
+        file_error(who, given);
+    }
+    free(name);
+    free(real);
+    return good;
+}
+
+/* PFM: linear floats, little endian (the -1), bottom row first. */
+static bool save_pfm(const char *who, const char *path, int width, int height,
+                     const rt_vec3 *pixels)
+{
+    char head[64];
+    const size_t head_size =
+        (size_t)snprintf(head, sizeof head, "PF\n%d %d\n-1.0\n", width, height);
+    const size_t size = head_size + (size_t)width * (size_t)height * 12;
+    unsigned char *file = malloc(size);
+    if (!file)
+        return file_error(who, path);
+    memcpy(file, head, head_size);
+    unsigned char *p = file + head_size;
+    for (int y = height - 1; y >= 0; y--)
+        for (int i = y * width; i < (y + 1) * width; i++) {
+            const float rgb[3] = {pixels[i].x, pixels[i].y, pixels[i].z};
+            for (int k = 0; k < 3; k++) {
+                uint32_t bits;
+                memcpy(&bits, &rgb[k], 4);
+                for (int shift = 0; shift < 32; shift += 8)
+                    *p++ = (unsigned char)(bits >> shift);
+            }
+        }
+    const bool good = write_file(who, path, file, size);
+    free(file);
+    return good;
+}
+
+static bool save_png(const char *who, const char *path, int width, int height,
+                     const unsigned char *bytes)
+{
+    int size = 0;
+    unsigned char *file =
+        stbi_write_png_to_mem(bytes, 3 * width, width, height, 3, &size);
+    if (!file) {
+        errno = ENOMEM;
+        return file_error(who, path);
+    }
+    const bool good = write_file(who, path, file, (size_t)size);
+    free(file);
+    return good;
+}
+
+bool files_save(const char *who, const char *path, int width, int height,
+                const unsigned char *bytes, const rt_vec3 *pixels)
+{
+    return strcmp(strrchr(path, '.'), ".pfm") == 0
+               ? save_pfm(who, path, width, height, pixels)
+               : save_png(who, path, width, height, bytes);
+}

@@ -1,0 +1,459 @@
+/* The program around a demo: what the command line wants, with a window or without. See demo.h for
+ * what a demo is, viewer.h for what there is to do with its picture. */
+#define _DEFAULT_SOURCE
+#define _DARWIN_C_SOURCE
+#define _XOPEN_SOURCE 700 /* stat, sigaction */
+#include "command.h"
+#include "files.h"
+#include "progress.h"
+#include "viewer.h"
+#include "window.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+enum { WORDS = 1 << 16 };
+enum { DONE = 0, FAILED = 1, WRONG_USE = 2, INTERRUPTED = 130 };
+
+typedef struct run {
+    settings s;
+    viewer v;
+    progress p;
+    window *win;          /* NULL: none */
+    unsigned char *bytes; /* of what is saved */
+} run;
+
+static volatile sig_atomic_t interrupted; /* by Ctrl-C or SIGTERM; a second one kills */
+
+static void interrupt(int signal)
+{
+    (void)signal;
+    interrupted = 1;
+}
+
+/* One line on stderr. */
+static bool failed(const run *r, rt_status status)
+{
+    fprintf(stderr, "%s: %s\n", r->v.d->name, rt_status_text(status));
+    return false;
+}
+
+/* -------------------------------------------------------------------------------------
+ * The picture that the command line wants
+ * ------------------------------------------------------------------------------------- */
+
+/* How many pixels have a value that is NaN or infinite: a mistake in pixel(). */
+static int bad_pixels(const rt_image *image)
+{
+    int count = 0;
+    for (int i = 0; i < image->width * image->height; i++) {
+        const rt_vec3 v = image->pixels[i];
+        count +=
+            !(fabsf(v.x) <= FLT_MAX && fabsf(v.y) <= FLT_MAX && fabsf(v.z) <= FLT_MAX);
+    }
+    return count;
+}
+
+static bool save(run *r)
+{
+    const rt_image *image = viewer_picture(&r->v);
+    const int bad = bad_pixels(image);
+    if (bad > 0)
+        fprintf(stderr, "%s: warning: %d of %d pixels are NaN or infinite\n",
+                r->v.d->name, bad, image->width * image->height);
+    viewer_encode(&r->v, false, image, 3, r->bytes);
+    return files_save(r->v.d->name, r->s.out, image->width, image->height, r->bytes,
+                      image->pixels);
+}
+
+/* What was asked for by a key: the file; the camera as C code; the pixel in words. */
+static void attend(run *r)
+{
+    viewer *v = &r->v;
+    static char words[WORDS];
+    text out = text_in(words, sizeof words);
+    const bool there = !(v->disturbed && v->image.samples == 0);
+    const bool tells = v->tell && !r->s.quiet, saves = v->save && there;
+    v->tell = false;
+    if (!tells && !saves)
+        return;
+    progress_end(&r->p);
+    if (tells) {
+        static viewer_line lines[VIEWER_LINES];
+        char ignored[8];
+        text summary = text_in(ignored, sizeof ignored);
+        text_add(&out, "%s: pixel %d,%d of %d x %d, %s\n", v->d->name, v->x, v->y,
+                 v->view.width, v->view.height, viewer_bounces(v));
+        viewer_plan(v, 1.0f, 1.0f, lines, &summary, &out);
+    }
+    if (saves) {
+        v->save = false;
+        window_was_away(r->win); /* it writes the file */
+        viewer_shown(v);         /* finished, if it is to be */
+        if (save(r)) {
+            text_add(&out, "%s: saved %s\n", v->d->name, r->s.out);
+            if (v->d->live)
+                v->d->live->print(&out);
+        }
+    }
+    if (!r->s.quiet)
+        printf("%s", words);
+    fflush(stdout);
+}
+
+/* Called by rt_render every few milliseconds. In a window: no thread writes to the image
+ * meanwhile, so it may be drawn. */
+static bool keep_going(void *user, float part)
+{
+    run *r = user;
+    viewer *v = &r->v;
+    if (!v->disturbed) {
+        const bool early = r->s.samples == 0 && part < 0.01f;
+        r->p.picture = viewer_picture(v);
+        progress_print(&r->p, demo_seconds(), (double)part, early ? v->image.samples : 0);
+    }
+    if (r->win) {
+        window_poll(r->win, v);
+        attend(r);
+        if (!v->closed && !v->stop && window_is_due(r->win)) {
+            if (viewer_is_denoised(v)) /* on all cores, so not while they render */
+                v->stop = true;
+            else
+                window_draw_in_time(r->win, v, 20.0);
+        }
+    }
+    return !interrupted && !v->closed && !v->stop;
+}
+
+static void print_job(const run *r)
+{
+    const settings *s = &r->s;
+    const int threads = rt_thread_count((int)s->threads);
+    printf("%s: %lld x %lld, ", r->v.d->name, s->width, s->height);
+    if (s->samples == 0)
+        printf("as many samples as it takes");
+    else
+        printf("%s%lld sample%s", s->error > 0.0f || s->seconds > 0.0f ? "at most " : "",
+               s->samples, viewer_plural(s->samples));
+    if (s->error > 0.0f)
+        printf(", until the error is %g %%", 100.0 * (double)s->error);
+    if (s->seconds > 0.0f)
+        printf(", for %g s at most", (double)s->seconds);
+    printf(", %s, %d thread%s", viewer_bounces(&r->v), threads, viewer_plural(threads));
+    if (r->v.d->render)
+        printf(", %d at a time", rt_lane_count((int)s->lanes));
+    printf("\n");
+    fflush(stdout);
+}
+
+/* It is done, or was interrupted, or failed. */
+static bool finish(run *r, rt_status status, double took)
+{
+    viewer *v = &r->v;
+    progress_end(&r->p);
+    if (status != RT_OK && status != RT_CANCELLED)
+        return failed(r, status);
+    double finishing = demo_seconds();
+    if (r->s.denoise && v->image.samples >= 2 && viewer_finish(v) != RT_OK)
+        return failed(r, RT_NO_MEMORY);
+    finishing = demo_seconds() - finishing;
+    const bool clean = viewer_picture(v) == &v->clean;
+    if (r->s.preview && !r->s.quiet && clean) {
+        r->p.picture = &v->clean;
+        progress_preview(&r->p);
+    }
+    if (!save(r))
+        return false;
+    if (!r->s.quiet) {
+        char result[100];
+        text out = text_in(result, sizeof result);
+        viewer_say_samples(&v->image, rt_image_error(&v->image), &out);
+        printf("%s: %.2f s, %s, %.1f million rays per second, ", v->d->name, took, result,
+               (double)v->image.rays / took * 1e-6);
+        if (clean)
+            printf("finished in %.2f s: error at most %.2f %%, ", finishing,
+                   100.0 * (double)viewer_clean_error(v));
+        printf("wrote %s%s\n", r->s.out, status == RT_CANCELLED ? " (interrupted)" : "");
+    }
+    fflush(stdout);
+    return true;
+}
+
+/* -------------------------------------------------------------------------------------
+ * One pixel in words
+ * ------------------------------------------------------------------------------------- */
+
+/* What denoising has done to it. */
+static rt_status explain_denoising(run *r, const rt_options *options)
+{
+    viewer *v = &r->v;
+    const int i = (int)(r->s.y * r->s.width + r->s.x);
+    rt_status status = viewer_render(v, options);
+    if (status == RT_OK)
+        status = viewer_finish(v);
+    if (status != RT_OK)
+        return status;
+    const rt_guide *g = &v->image.guides[i];
+    const rt_vec3 noisy = v->image.pixels[i], clean = v->clean.pixels[i];
+    const struct {
+        const char *name;
+        rt_vec3 value;
+    } lines[] = {
+        {"normal", g->normal},
+        {"point", g->point},
+        {"albedo", g->albedo},
+        {"direct light, kept", g->direct},
+        {"light of others, noisy", rt_sub(noisy, g->direct)},
+        {"light of others, finished", rt_sub(clean, g->direct)},
+        {"pixel, noisy", noisy},
+        {"pixel, finished", clean},
+    };
+    printf("denoising, with the guides of all samples\n");
+    for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++)
+        printf("  %-26s (%.6g, %.6g, %.6g)\n", lines[k].name, (double)lines[k].value.x,
+               (double)lines[k].value.y, (double)lines[k].value.z);
+    return RT_OK;
+}
+
+static int explain(run *r)
+{
+    const demo *d = r->v.d;
+    rt_options options = r->v.options;
+    if (options.samples == 0)
+        options.samples = d->samples;
+    if (!r->s.quiet)
+        printf("%s: pixel %ld,%ld of %lld x %lld, %d sample%s, %s\n", d->name, r->s.x,
+               r->s.y, r->s.width, r->s.height, options.samples,
+               viewer_plural(options.samples), viewer_bounces(&r->v));
+    rt_status status = d->explain(&options, &r->v.image, (int)r->s.x, (int)r->s.y);
+    if (status == RT_OK && r->s.denoise)
+        status = explain_denoising(r, &options);
+    return status == RT_OK || failed(r, status) ? DONE : FAILED;
+}
+
+/* -------------------------------------------------------------------------------------
+ * In a window
+ * ------------------------------------------------------------------------------------- */
+
+static run *open_run; /* which has a window */
+
+/* Xlib ends the program when the display is lost. Then at least save what there is. */
+static void display_lost(void)
+{
+    if (open_run && !open_run->v.disturbed && !open_run->v.finished) {
+        fprintf(stderr, "%s: the display is gone\n", open_run->v.d->name);
+        finish(open_run, RT_CANCELLED, demo_seconds() - open_run->p.started);
+    }
+}
+
+static void open_window(run *r)
+{
+    const char *why = "not enough memory";
+    if (viewer_show(&r->v))
+        r->win = window_open(&r->v, &why);
+    if (r->win) {
+        open_run = r;
+        atexit(display_lost);
+    } else if (!r->s.quiet) {
+        printf("%s: no window (%s)\n", r->v.d->name, why);
+    }
+}
+
+static void draw_draft(run *r)
+{
+    const double start = demo_seconds();
+    viewer_begin_anew(&r->v);
+    viewer_draft(&r->v);
+    window_poll(r->win, &r->v);
+    window_draw(r->win, &r->v);
+    viewer_draft_took(&r->v, demo_seconds() - start);
+}
+
+/* As many samples as are missing, or until something else is to be done. False: it failed. */
+static bool refine(run *r)
+{
+    viewer *v = &r->v;
+    const bool wanted = !v->disturbed && !viewer_shows_other(v); /* by the command line */
+    const rt_status status = viewer_refine(v, keep_going, r);
+    if (status != RT_OK && status != RT_CANCELLED)
+        return finish(r, status, 0.0);
+    if (viewer_is_denoised(v))
+        window_draw_in_time(r->win, v, 4.0);
+    if (!viewer_is_denoised(v) || status == RT_OK)
+        v->redraw = true;
+    if (!wanted || v->disturbed || (status != RT_OK && !interrupted))
+        return true;
+    v->finished = true;
+    const bool good = finish(r, status, demo_seconds() - r->p.started);
+    v->samples = v->image.samples;
+    window_was_away(r->win); /* it was writing the file */
+    return good;
+}
+
+/* Until it is closed. */
+static bool run_window(run *r)
+{
+    viewer *v = &r->v;
+    bool good = true;
+    while (!v->closed && !interrupted && good) {
+        window_poll(r->win, v);
+        attend(r);
+        switch (viewer_next(v, demo_seconds())) {
+        case DRAW_A_DRAFT: draw_draft(r); break;
+        case REST:
+            window_wait(r->win, (int)(1000.0 * (v->rests - demo_seconds())) + 1);
+            break;
+        case REFINE: good = refine(r); break;
+        case NOTHING: window_rest(r->win, v); break;
+        }
+    }
+    if (!r->s.quiet && !v->finished && good)
+        printf("%s: closed after %.2f s, before the end\n", v->d->name,
+               demo_seconds() - r->p.started);
+    if (!r->s.quiet && v->drafts > 0)
+        printf("%s: %d pictures in motion, %.0f a second; the longest wait for the "
+               "keyboard: %.0f ms\n",
+               v->d->name, v->drafts, v->drafts / v->drafts_took,
+               1e3 * window_slowest(r->win));
+    return good;
+}
+
+/* -------------------------------------------------------------------------------------
+ * The whole program
+ * ------------------------------------------------------------------------------------- */
+
+static int render_and_save(run *r)
+{
+    if (!r->s.quiet)
+        print_job(r);
+    r->p.started = demo_seconds();
+    bool good;
+    if (r->win) {
+        good = run_window(r);
+    } else {
+        rt_options options = r->v.options;
+        options.progress = keep_going;
+        options.user = r;
+        const rt_status status = viewer_render(&r->v, &options);
+        good = finish(r, status, demo_seconds() - r->p.started);
+    }
+    return !good ? FAILED : interrupted ? INTERRUPTED : DONE;
+}
+
+static int show(run *r)
+{
+    if (r->v.d->measure && !r->s.quiet)
+        r->v.d->measure(rt_thread_count(r->v.options.threads));
+    struct sigaction action = {.sa_handler = interrupt};
+    action.sa_flags = (int)SA_RESETHAND;
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error like others, not the end */
+    if (r->s.window)
+        open_window(r);
+    const int result = render_and_save(r);
+    open_run = NULL;
+    if (r->win)
+        window_close(r->win);
+    return result;
+}
+
+/* What the words ask for and this demo, or this terminal, does not have. */
+static void say_what_is_not(run *r)
+{
+    const demo *d = r->v.d;
+    if (r->s.preview && progress_colours() == 0) {
+        r->s.preview = false;
+        if (!r->s.quiet)
+            printf("%s: --preview: this is no terminal with colours\n", d->name);
+    }
+    if (d->bounces == 0 && r->s.bounces > 0 && !r->s.quiet)
+        printf("%s: this chapter has no bounces yet, --bounces changes nothing\n",
+               d->name);
+    if (!d->render && r->s.lanes > 0 && !r->s.quiet)
+        printf("%s: this chapter traces one ray at a time, --lanes changes nothing\n",
+               d->name);
+}
+
+static rt_options options_of(const settings *s)
+{
+    return (rt_options){.samples = (int)s->samples,
+                        .bounces = (int)s->bounces,
+                        .threads = (int)s->threads,
+                        .seed = (uint32_t)s->seed,
+                        .sampler = s->sampler,
+                        .error = s->error,
+                        .seconds = s->seconds,
+                        .lanes = (int)s->lanes};
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+/* Compiled for more than this machine has (-march=native, and then copied)? Asked before
+ * main, in plain x86-64, as main itself may use what is not there. */
+__attribute__((constructor, target("arch=x86-64"))) static void check_machine(void)
+{
+    const char *lacks = NULL;
+    __builtin_cpu_init();
+#ifdef __AVX2__
+    lacks = __builtin_cpu_supports("avx2") ? lacks : "AVX2";
+#endif
+#ifdef __AVX512F__
+    lacks = __builtin_cpu_supports("avx512f") ? lacks : "AVX-512";
+#endif
+    if (lacks) {
+        fprintf(stderr,
+                "compiled for a machine with %s, which this one lacks: make -B "
+                "MACHINE= makes a program for any\n",
+                lacks);
+        exit(FAILED);
+    }
+}
+#endif
+
+int demo_main(int argc, char **argv, const demo *d)
+{
+    char out[64];
+    struct stat info;
+    const bool at_the_top = stat("build", &info) == 0 && S_ISDIR(info.st_mode);
+    snprintf(out, sizeof out, "%s%s.png", at_the_top ? "build/" : "", d->name);
+    run r = {.v = {.d = d},
+             .s = {.width = 640,
+                   .height = 480,
+                   .bounces = d->bounces,
+                   .sampler = d->sobol ? RT_SOBOL : RT_RANDOM,
+                   .denoise = d->denoise,
+                   .out = out,
+                   .window = true}};
+    if (!command_parse(d, argc, argv, &r.s))
+        return WRONG_USE;
+    if (r.s.help) {
+        command_help(d);
+        return fflush(stdout) == 0 ? DONE : FAILED;
+    }
+    if (!r.s.explain && !files_can_write(d->name, r.s.out))
+        return FAILED;
+    say_what_is_not(&r);
+    if (r.s.samples == 0 && r.s.error == 0.0f && r.s.seconds == 0.0f)
+        r.s.samples = d->samples;
+
+    int result = FAILED;
+    const rt_options options = options_of(&r.s);
+    r.p = (progress){.quiet = r.s.quiet, .preview = r.s.preview, .encode = d->encode};
+    r.bytes = malloc((size_t)r.s.width * (size_t)r.s.height * 3);
+    if (r.bytes &&
+        viewer_open(&r.v, d, (int)r.s.width, (int)r.s.height, &options, r.s.denoise)) {
+        result = r.s.explain ? explain(&r) : show(&r);
+        viewer_close(&r.v);
+    } else {
+        fprintf(stderr, "%s: not enough memory for %lld x %lld pixels\n", d->name,
+                r.s.width, r.s.height);
+    }
+    free(r.bytes);
+    if (ferror(stdout) || fflush(stdout) != 0) {
+        fprintf(stderr, "%s: cannot write to standard output\n", d->name);
+        result = FAILED;
+    }
+    return result;
+}

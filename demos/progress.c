@@ -1,0 +1,125 @@
+/* Progress on a terminal: see progress.h. */
+#define _DEFAULT_SOURCE   /* winsize */
+#define _DARWIN_C_SOURCE  /* the same on macOS */
+#define _XOPEN_SOURCE 700 /* isatty, fileno */
+#include "progress.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+static bool on_terminal(void)
+{
+    const char *term = getenv("TERM");
+    return isatty(fileno(stderr)) && (!term || strcmp(term, "dumb") != 0);
+}
+
+/* How many colours the terminal has: 0 (none, or no terminal), 256, or 2^24. */
+int progress_colours(void)
+{
+    const char *term = getenv("TERM"), *colour = getenv("COLORTERM");
+    if (!on_terminal() || !term)
+        return 0;
+    if ((colour && (strcmp(colour, "truecolor") == 0 || strcmp(colour, "24bit") == 0)) ||
+        strstr(term, "-direct"))
+        return 1 << 24;
+    return strstr(term, "256color") ? 256 : 0;
+}
+
+/* The mean of the pixels in one of columns x rows parts of the image, as bytes. */
+static void preview_colour(const progress *p, int x, int y, int columns, int rows,
+                           int rgb[3])
+{
+    const int width = p->picture->width, height = p->picture->height;
+    const int x0 = (int)((long long)x * width / columns);
+    const int y0 = (int)((long long)y * height / rows);
+    int x1 = (int)((long long)(x + 1) * width / columns);
+    int y1 = (int)((long long)(y + 1) * height / rows);
+    x1 = x1 > x0 ? x1 : x0 + 1;
+    y1 = y1 > y0 ? y1 : y0 + 1;
+    rt_vec3 sum = {0, 0, 0};
+    for (int j = y0; j < y1; j++)
+        for (int i = x0; i < x1; i++)
+            sum = rt_add(sum, p->picture->pixels[j * width + i]);
+    const float part = 1.0f / (float)((x1 - x0) * (y1 - y0));
+    rgb[0] = p->encode(part * sum.x);
+    rgb[1] = p->encode(part * sum.y);
+    rgb[2] = p->encode(part * sum.z);
+}
+
+/* The picture in half blocks: the upper half of a cell has the colour of the text, the lower
+ * that of its background. Each row ends with the colours as they were, so there is nothing
+ * to bring back when the program ends, in whatever way. */
+void progress_preview(progress *p)
+{
+    struct winsize size = {.ws_col = 80, .ws_row = 24};
+    ioctl(fileno(stderr), TIOCGWINSZ, &size);
+    int columns = size.ws_col > 1 ? size.ws_col - 1 : 1;
+    const int most = size.ws_row > 3 ? size.ws_row - 3 : 1;
+    int rows =
+        (int)((double)columns * p->picture->height / p->picture->width / 2.0 + 0.5);
+    if (rows > most) {
+        rows = most;
+        const double fitting = 2.0 * rows * p->picture->width / p->picture->height;
+        columns = fitting < columns ? (int)(fitting + 0.5) : columns;
+    }
+    rows = rows > 0 ? rows : 1;
+    columns = columns > 0 ? columns : 1;
+    const bool all = progress_colours() > 256;
+    if (p->preview_rows == rows)
+        fprintf(stderr, "\r\033[%dA", rows);
+    p->preview_rows = rows;
+    for (int y = 0; y < rows; y++) {
+        fprintf(stderr, "\r\033[K");
+        for (int x = 0; x < columns; x++) {
+            int c[6];
+            preview_colour(p, x, 2 * y, columns, 2 * rows, c);
+            preview_colour(p, x, 2 * y + 1, columns, 2 * rows, c + 3);
+            if (all)
+                fprintf(stderr, "\033[38;2;%d;%d;%d;48;2;%d;%d;%dm\xe2\x96\x80", c[0],
+                        c[1], c[2], c[3], c[4], c[5]);
+            else /* the nearest of 6 x 6 x 6 */
+                fprintf(stderr, "\033[38;5;%d;48;5;%dm\xe2\x96\x80",
+                        16 + 36 * ((c[0] + 25) / 51) + 6 * ((c[1] + 25) / 51) +
+                            (c[2] + 25) / 51,
+                        16 + 36 * ((c[3] + 25) / 51) + 6 * ((c[4] + 25) / 51) +
+                            (c[5] + 25) / 51);
+        }
+        fprintf(stderr, "\033[0m\n");
+    }
+}
+
+void progress_print(progress *p, double now, double part, int samples)
+{
+    if (p->quiet)
+        return;
+    if (p->preview && (now >= p->due || part >= 1.0)) {
+        progress_preview(p);
+        p->due = 0.0;
+    }
+    if (on_terminal()) {
+        if (now < p->due)
+            return;
+        p->due = now + 0.1;
+        char bar[31];
+        for (int i = 0; i < 30; i++)
+            bar[i] = i < (int)(30.0 * part) ? '#' : '.';
+        bar[30] = '\0';
+        fprintf(stderr, "\r\033[K[%s] %3.0f %%, ", bar, 100.0 * part);
+        if (samples > 0)
+            fprintf(stderr, "%d sample%s ", samples, samples == 1 ? "" : "s");
+        else
+            fprintf(stderr, "%.0f s left ", (now - p->started) * (1.0 - part) / part);
+    } else if (part < 1.0 && (int)(4.0 * part) > p->quarters) {
+        p->quarters = (int)(4.0 * part);
+        fprintf(stderr, "%d %%\n", 25 * p->quarters);
+    }
+}
+
+void progress_end(const progress *p)
+{
+    if (!p->quiet && on_terminal())
+        fprintf(stderr, "\r\033[K");
+}
