@@ -46,6 +46,11 @@ static bool add_guides(rt_image *image)
     return image->guides && add_half(image);
 }
 
+bool viewer_add_memory(rt_image *image, bool half, bool guides)
+{
+    return (!half || add_half(image)) && (!guides || add_guides(image));
+}
+
 static void free_image(rt_image *image)
 {
     free(image->pixels);
@@ -459,22 +464,28 @@ static bool handle_common_key(viewer *v, int key, bool repeated)
     }
 }
 
+void viewer_nudge(viewer *v, int thing, float right, float up, bool over_the_floor)
+{
+    const float pixels = (float)v->view.width / 40.0f, turns = 1.0f / 64.0f;
+    if (thing != 0)
+        v->d->live->drag(thing, &v->view, right * pixels, up * pixels, over_the_floor);
+    else
+        v->d->live->orbit(right * turns, up * turns);
+    change(v);
+}
+
 /* Those that move the camera. */
 static bool handle_camera_key(viewer *v, int key)
 {
-    const demo_live *live = v->d->live;
-    const float step = 1.0f / 64.0f; /* of a turn */
     switch (key) {
-    case KEY_LEFT: live->orbit(-step, 0); break;
-    case KEY_RIGHT: live->orbit(step, 0); break;
-    case KEY_UP: live->orbit(0, step); break;
-    case KEY_DOWN: live->orbit(0, -step); break;
-    case KEY_NEARER: live->zoom(0.9f); break;
-    case KEY_FARTHER: live->zoom(1.0f / 0.9f); break;
+    case KEY_LEFT: viewer_nudge(v, 0, -1, 0, false); return true;
+    case KEY_RIGHT: viewer_nudge(v, 0, 1, 0, false); return true;
+    case KEY_UP: viewer_nudge(v, 0, 0, 1, false); return true;
+    case KEY_DOWN: viewer_nudge(v, 0, 0, -1, false); return true;
+    case KEY_NEARER: viewer_wheel(v, 1); return true;
+    case KEY_FARTHER: viewer_wheel(v, -1); return true;
     default: return false;
     }
-    change(v);
-    return true;
 }
 
 void viewer_key(viewer *v, int key, bool repeated)
@@ -599,9 +610,12 @@ rt_status viewer_add_samples(const viewer *v, bool other, const rt_options *opti
                              rt_image *image)
 {
     const int stage = stage_of(v, other);
+    rt_options o = *options;
+    if (other && v->comparison == OTHER_NUMBERS)
+        o.sampler = o.sampler == RT_RANDOM ? RT_SOBOL : RT_RANDOM;
     if (!is_own(v, stage) || (other && v->comparison == BY_RT_H && v->d->live))
-        return v->d->live->render(stage, &v->view, options, image);
-    return render_own(v, &v->view, options, image);
+        return v->d->live->render(stage, &v->view, &o, image);
+    return render_own(v, &v->view, &o, image);
 }
 
 rt_status viewer_refine(viewer *v, bool (*progress)(void *user, float part), void *user)
@@ -643,8 +657,9 @@ const char *viewer_bounces(const viewer *v)
 
 const char *viewer_comparison_name(viewer_comparison comparison)
 {
-    static const char *const names[COMPARISONS] = {
-        "the chapter before", "one sample", "rt.h's own function", "with its noise"};
+    static const char *const names[COMPARISONS] = {"the chapter before", "one sample",
+                                                   "rt.h's own function", "other numbers",
+                                                   "with its noise"};
     return names[comparison];
 }
 

@@ -11,8 +11,9 @@
 typedef enum viewer_comparison {
     BEFORE, /* the chapter before */
     ONE_SAMPLE,
-    BY_RT_H, /* rt.h's own function in place of the demo's */
-    NOISY,   /* without denoising */
+    BY_RT_H,       /* rt.h's own function in place of the demo's */
+    OTHER_NUMBERS, /* random in place of Sobol's, or these in place of random */
+    NOISY,         /* without denoising */
     COMPARISONS
 } viewer_comparison;
 
@@ -98,6 +99,8 @@ void viewer_set_stage(viewer *v, int stage);
 void viewer_set_samples(viewer *v, int samples);
 void viewer_set_bounces(viewer *v, int bounces);
 void viewer_inspect(viewer *v, int x, int y);
+/* Move a thing, or 0, the camera, by one step. */
+void viewer_nudge(viewer *v, int thing, float right, float up, bool over_the_floor);
 
 /* ---- what is to be done ------------------------------------------------------------- */
 
@@ -106,6 +109,8 @@ void viewer_begin_anew(viewer *v); /* before the draft */
 void viewer_draft(viewer *v);
 /* So long it took, and its drawing: sets the size of the next. */
 void viewer_draft_took(viewer *v, double seconds);
+/* What an image lacks, of half and guides. False: not enough memory. */
+bool viewer_add_memory(rt_image *image, bool half, bool guides);
 /* As many samples as are missing, or until progress returns false. */
 rt_status viewer_refine(viewer *v, bool (*progress)(void *user, float part), void *user);
 /* So many samples to an image of ours, or a part of it. */

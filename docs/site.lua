@@ -60,3 +60,20 @@ function RawInline(raw) -- <img src="...">
     raw.text = raw.text:gsub('src="([^"]*)"', function(src) return 'src="' .. moved(src) .. '"' end)
     return raw
 end
+
+-- Before and after: in a chapter of the site that table is the picture alive (see docs/live). Without
+-- a script, and on GitHub, it is the table.
+function Pandoc(doc)
+    local demo = doc.meta.demo and pandoc.utils.stringify(doc.meta.demo)
+    if not demo then
+        return doc
+    end
+    for i, block in ipairs(doc.blocks) do
+        if block.t == "Table" then
+            doc.blocks[i] = pandoc.Div({ block }, { id = "live-" .. demo, class = "live", ["data-demo"] = demo })
+            break
+        end
+    end
+    doc.blocks:insert(pandoc.RawBlock("html", '<script src="live/' .. demo .. '.js"></script>\n<script src="live/live.js"></script>'))
+    return doc
+end

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The documentation as a site, build/site/index.html, and as one document to print,
-# build/rt.pdf: by pandoc and chromium, without a script in the pages and without the network.
+# build/rt.pdf: by pandoc and chromium, without the network.
 command -v pandoc >/dev/null ||
     { echo "note: pandoc is missing (Debian: apt-get install pandoc): no site, no PDF"; exit 0; }
 site=${BUILD:-build}/site
@@ -18,13 +18,23 @@ sed -n 's/.*\](\(\.\.\/[^)#]*\).*/\1/p; s/.*\](\(mistakes\/[^)#]*\).*/docs\/\1/p
 done
 cp rt.h LICENSE CHANGELOG.md "$site" && mkdir -p "$site/docs" && cp -r docs/mistakes "$site/docs/" || exit 1
 
-page() { # SOURCE TARGET
+# The pictures that are alive: see docs/live. Without them the pages are without a script.
+live=
+docs/live/build.sh "$site/live"
+case $? in 0) live=1 ;; 3) ;; *) exit 1 ;; esac
+
+page() { # SOURCE TARGET DEMO
     title=$(sed -n '1s/^# //p' "$1")
+    demo=${live:+$3}
     pandoc -f gfm-tex_math_dollars -t html5 -s --mathml --lua-filter docs/site.lua --css site.css \
+        ${demo:+--css live/live.css -M "demo=$demo"} \
         --metadata pagetitle="$title - rt.h" --metadata lang=en -o "$site/$2" "$1" || exit 1
 }
 page README.md index.html
-for name in $chapters $others; do
+for name in $chapters; do
+    page "docs/$name.md" "$name.html" "demo$(echo "$name" | cut -c1-2)"
+done
+for name in $others; do
     page "docs/$name.md" "$name.html"
 done
 

@@ -1,0 +1,840 @@
+/* The picture of a chapter, alive: <div class="live" data-demo="demo07">...</div>,
+ * with the still picture in it. The demo
+ * is compiled to WebAssembly and runs on as many workers as there are cores, each with some parts of
+ * the picture. demos/viewer.c says what a drag or a key means and what is to be rendered; this script
+ * draws it. It needs nothing from the network and works from file://. Without it, and where it cannot
+ * run, the still picture stays. */
+'use strict';
+(() => {
+
+/* ---- an instance of a module: in the page and in each worker -------------------------- */
+
+/* The functions that a C library wants of its system: time, and text to print. */
+function open(module, width, height) {
+    const said = [], imports = {};
+    let ex;
+    for (const {module: from, name} of WebAssembly.Module.imports(module))
+        (imports[from] ??= {})[name] = () => 0;
+    const system = imports.wasi_snapshot_preview1 ?? {};
+    system.clock_time_get = (id, precision, at) => {
+        const now = BigInt(Math.round(1e6 * (performance.timeOrigin + performance.now())));
+        new DataView(ex.memory.buffer).setBigUint64(at, now, true);
+        return 0;
+    };
+    system.fd_write = (file, list, count, written) => {
+        const memory = new DataView(ex.memory.buffer);
+        let all = 0;
+        for (let i = 0; i < count; i++) {
+            const at = memory.getUint32(list + 8 * i, true), size = memory.getUint32(list + 8 * i + 4, true);
+            if (said.length < 100) /* who prints without end is not heard out */
+                said.push(new TextDecoder().decode(new Uint8Array(ex.memory.buffer, at, size)));
+            all += size;
+        }
+        memory.setUint32(written, all, true);
+        return 0;
+    };
+    system.proc_exit = status => { throw new Error(`exit ${status}`); };
+    ex = new WebAssembly.Instance(module, imports).exports;
+    ex._initialize();
+    if (ex.page_start(width, height) !== 0)
+        throw new Error('not enough memory');
+    const bytes = (at, size) => new Uint8Array(ex.memory.buffer, at, size);
+    return {
+        ex, said, bytes,
+        text: at => { const m = bytes(at); return new TextDecoder().decode(m.subarray(0, m.indexOf(0))); },
+        wish() { const at = ex.page_wish(); return bytes(at, ex.page_wish_size()).slice(); },
+        obey(wish) { const at = ex.page_wish(); bytes(at, wish.length).set(wish); ex.page_obey(); },
+    };
+}
+
+/* ---- what a worker does: answers messages by post ------------------------------------- */
+
+function work(post) {
+    const PART = 4096, SLICE = 12, SHOW = 33; /* pixels; milliseconds */
+    const instances = {}, targets = {};
+    const channel = new MessageChannel(); /* to come back after other messages were heard */
+    let k, n, width, height, job = null, shown = 0, waiting = false;
+    channel.port1.onmessage = proceed;
+
+    const size = part => Math.min(PART, width * height - part * PART);
+    const own = () => { const list = []; for (let p = k; p * PART < width * height; p += n) list.push(p); return list; };
+    const target = (name, other) => targets[name + other] ??= {samples: 0, next: 0, dirty: new Map(), rays: 0, squares: 0, sum: 0};
+
+    function send(done) {
+        const t = target(job.name, job.other), list = [...t.dirty];
+        shown = performance.now();
+        post({k, run: job.run, other: job.to_other, samples: t.samples, rays: t.rays, squares: t.squares, sum: t.sum, done,
+            busy: job.busy, parts: list.map(p => p[0]), pixels: list.map(p => p[1])}, list.map(p => p[1].buffer));
+        t.dirty.clear();
+    }
+    function proceed() {
+        waiting = false;
+        if (!job)
+            return;
+        const {ex, bytes} = instances[job.name], t = target(job.name, job.other), list = own();
+        const start = performance.now();
+        while (t.samples < job.samples && performance.now() - start < SLICE) {
+            const part = list[t.next], at = ex.page_refine(part, job.other);
+            if (!at)
+                throw new Error('not enough memory');
+            t.dirty.set(part, bytes(at, 4 * size(part)).slice());
+            if (++t.next === list.length) {
+                t.next = t.rays = t.squares = t.sum = 0;
+                t.samples++;
+                for (const p of list) {
+                    t.rays += ex.page_rays(p, job.other);
+                    t.squares += ex.page_squares(p, job.other);
+                    t.sum += ex.page_sum(p, job.other);
+                }
+            }
+        }
+        job.busy += performance.now() - start;
+        if (t.samples >= job.samples) {
+            send(true);
+            job = null;
+        } else {
+            if (performance.now() - shown > SHOW)
+                send(false);
+            wait();
+        }
+    }
+    function wait() {
+        if (!waiting)
+            channel.port2.postMessage(0);
+        waiting = true;
+    }
+    const answer = {
+        start(m) { ({k, n, width, height} = m); },
+        module(m) {
+            instances[m.name] = open(new WebAssembly.Module(m.bytes), width, height);
+            for (const key of Object.keys(targets).filter(key => key.startsWith(m.name)))
+                delete targets[key];
+        },
+        draft(m) { /* what is being refined is void: something moved */
+            const {ex, bytes, obey} = instances[m.name], start = performance.now();
+            job = null;
+            obey(m.wish);
+            const at = ex.page_draft(), w = ex.page_draft_width(), h = ex.page_draft_height();
+            const pixels = new Uint8ClampedArray(bytes(at, 4 * w * h));
+            post({k, draft: m.number, width: w, height: h, pixels, took: performance.now() - start}, [pixels.buffer]);
+        },
+        refine(m) {
+            const {ex, obey} = instances[m.name], t = target(m.name, m.other);
+            obey(m.wish);
+            if (m.anew) {
+                own().forEach(part => ex.page_forget(part, m.other));
+                Object.assign(t, {samples: 0, next: 0});
+                t.dirty.clear();
+            }
+            job = {...m, busy: 0};
+            wait();
+        },
+        encode(m) { /* the same picture, other bytes */
+            const {ex, bytes, obey} = instances[m.name], list = own();
+            obey(m.wish);
+            const pixels = list.map(part => bytes(ex.page_encode(part, m.other), 4 * size(part)).slice());
+            post({k, encoded: true, other: m.to_other, parts: list, pixels}, pixels.map(p => p.buffer));
+        },
+        collect(m) { /* all that is known about our parts */
+            const {ex, bytes} = instances.chapter, g = ex.page_guide_size();
+            const parts = own().map(part => ({part,
+                pixels: bytes(ex.page_pixels(part), 12 * size(part)).slice(), half: bytes(ex.page_half(part), 12 * size(part)).slice(),
+                guides: bytes(ex.page_guides(part), g * size(part)).slice()}));
+            post({k, run: m.run, collected: parts}, parts.flatMap(p => [p.pixels.buffer, p.half.buffer, p.guides.buffer]));
+        },
+        finish(m) { /* the parts of all workers, without their noise */
+            const {ex, bytes, obey} = instances.chapter, g = ex.page_guide_size();
+            obey(m.wish);
+            const to = {pixels: ex.page_pixels(-1), half: ex.page_half(-1), guides: ex.page_guides(-1)};
+            for (const p of m.parts) {
+                bytes(to.pixels + 12 * PART * p.part, p.pixels.length).set(p.pixels);
+                bytes(to.half + 12 * PART * p.part, p.half.length).set(p.half);
+                bytes(to.guides + g * PART * p.part, p.guides.length).set(p.guides);
+            }
+            const start = performance.now(), at = ex.page_finish(m.samples), took = performance.now() - start;
+            const pixels = new Uint8ClampedArray(bytes(at, 4 * width * height));
+            post({k, run: m.run, finished: pixels, samples: m.samples, took, error: m.last ? ex.page_finished_error() : -1}, [pixels.buffer]);
+        },
+        stop() { job = null; },
+    };
+    channel.port1.onmessage = () => guard(proceed);
+    function guard(f, m) {
+        try {
+            f(m);
+        } catch (error) {
+            job = null;
+            post({k, failed: String(error.message ?? error)});
+        }
+    }
+    return m => guard(answer[m.do], m);
+}
+
+/* ---- words ----------------------------------------------------------------------------- */
+
+const french = {
+    'samples': 'échantillons', 'bounces': 'rebonds', 'all as at first': 'tout comme au début', 'the camera': 'la caméra',
+    'the ball': 'la boule', 'the mirror': 'le miroir', 'the cube': 'le cube', 'the lamp': 'la lampe', 'move': 'déplacer',
+    'left': 'à gauche', 'right': 'à droite', 'up': 'en haut', 'down': 'en bas', 'nearer': 'plus près', 'farther': 'plus loin',
+    'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample before': 'échantillon précédent',
+    'next sample': 'échantillon suivant', 'compare with': 'comparer avec', 'the chapter before': 'le chapitre précédent',
+    'one sample': 'un seul échantillon', 'other numbers': 'd’autres nombres', 'with its noise': 'avec son bruit',
+    'the right one': 'l’image juste', 'rt.h\'s own function': 'la fonction de rt.h',
+    'rays at a time': 'rayons à la fois', 'workers': 'processus', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
+    'as in chapter': 'comme au chapitre', 'The picture is done.': 'L’image est terminée.', 'error': 'erreur', 'gamma': 'gamma',
+    'million rays a second': 'millions de rayons par seconde', 'This picture cannot move here': 'Cette image ne peut pas bouger ici',
+};
+const t = navigator.language?.startsWith('fr') ? words => french[words] ?? words : words => words;
+
+/* An element: make('button', {class: 'x', text: 'y'}, child...). */
+function make(name, attributes = {}, ...children) {
+    const element = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) {
+        if (key === 'text')
+            element.textContent = value;
+        else if (key.startsWith('on'))
+            element[key] = value;
+        else if (value !== false)
+            element.setAttribute(key, value === true ? '' : value);
+    }
+    element.append(...children);
+    return element;
+}
+
+/* ---- the figure -------------------------------------------------------------------------- */
+
+const NOTHING = 0, DRAFT = 1, REST = 2, REFINE = 3; /* as viewer_task */
+const BEFORE = 0, ONE_SAMPLE = 1, BY_RT_H = 2, OTHER_NUMBERS = 3, NOISY = 4; /* as viewer_comparison */
+const KEYS = {ArrowLeft: 256, ArrowRight: 257, ArrowUp: 258, ArrowDown: 259, PageUp: 260, PageDown: 261};
+const THINGS = ['the camera', 'the ball', 'the mirror', 'the cube', 'the lamp'];
+
+/* What each chapter has of its own. */
+const chapters = {
+    demo01: {compare: ONE_SAMPLE, controls: ['samples']},
+    demo02: {compare: BEFORE, controls: []},
+    demo03: {compare: BEFORE, controls: []},
+    demo04: {compare: BEFORE, controls: []},
+    demo05: {compare: BEFORE, controls: ['gamma']},
+    demo06: {compare: BEFORE, controls: ['bounces']},
+    demo07: {compare: BEFORE, controls: ['stages', 'samples', 'bounces'], chart: 'error'},
+    demo08: {compare: ONE_SAMPLE, controls: ['samples', 'lanes', 'workers'], chart: 'speed'},
+    demo09: {compare: OTHER_NUMBERS, controls: ['samples', 'sampler'], chart: 'error'},
+    demo10: {compare: NOISY, controls: ['samples', 'denoise']},
+};
+
+async function bring_to_life(root, name, encoded) {
+    const W = +(root.dataset.width ?? 480), H = +(root.dataset.height ?? 360), chapter = chapters[name];
+    const bytes = Uint8Array.from(atob(encoded), c => c.charCodeAt(0));
+    const begun = performance.now(), seconds = () => performance.now() / 1000;
+    const {ex, text, bytes: memory, wish} = open(await WebAssembly.compile(bytes), W, H);
+    const calm = matchMedia('(prefers-reduced-motion: reduce)');
+    const first_stage = ex.page_stage();
+
+    /* Its state beside the viewer's. */
+    const images = [new ImageData(W, H), new ImageData(W, H)]; /* the picture, and the one to compare with */
+    let workers = [], run = 0, running = false, dirty = false, number = 0, latest = 0, moved_at = 0;
+    let results = [[], []], divide = 0, thing = 0, drawn_by = 'chapter', mine = null, alarm = 0, visible = false;
+    let finished_samples = 0, finishing = false, finished_error = -1, timer = 0;
+    const report = {first: 0, moves: [], drafts: [], done: 0, workers: 0}; /* for tests and the curious */
+
+    ex.page_set_comparison(chapter.compare);
+    const {canvas, other, status, spoken, progress, inspector, plan, said, where, controls, chart} = build();
+    const context = canvas.getContext('2d'), other_context = other.getContext('2d');
+    hire(+(new URLSearchParams(location.search).get('workers') ?? Math.min(8, navigator.hardwareConcurrency ?? 2)));
+
+    /* ---- workers ------------------------------------------------------------------------- */
+
+    /* So many. Where there are none to be had, the page works itself, and answers a little later. */
+    function hire(count) {
+        workers.forEach(w => w.end());
+        workers = [];
+        report.workers = count = Math.max(1, count);
+        let url = null;
+        try {
+            url = URL.createObjectURL(new Blob([open, '\n', work, '\nonmessage = (receive => e => receive(e.data))(work(postMessage));']));
+        } catch { /* then without */ }
+        for (let k = 0; k < count; k++) {
+            const hear = m => listen(m, w), w = {busy: false};
+            try {
+                const worker = new Worker(url);
+                worker.onmessage = e => hear(e.data);
+                worker.onerror = e => { e.preventDefault(); hear({k, failed: e.message ?? 'error'}); };
+                w.tell = (m, given) => worker.postMessage(m, given ?? []);
+                w.end = () => worker.terminate();
+            } catch {
+                if (k > 0)
+                    break;
+                count = report.workers = 1;
+                const receive = work(m => setTimeout(hear, 0, m));
+                w.tell = m => setTimeout(receive, 0, m);
+                w.end = () => receive({do: 'stop'});
+            }
+            workers.push(w);
+            w.tell({do: 'start', k, n: count, width: W, height: H});
+            w.tell({do: 'module', name: 'chapter', bytes});
+            if (mine)
+                w.tell({do: 'module', name: 'mine', bytes: mine});
+        }
+    }
+    const tell_all = m => workers.forEach(w => w.tell(m));
+
+    /* Code of the reader's may run without end: then other workers go on without it. */
+    function watch() {
+        clearTimeout(alarm);
+        if (drawn_by === 'mine')
+            alarm = setTimeout(() => give_up('no end after 3 s: stopped'), 3000);
+    }
+    function give_up(why) {
+        clearTimeout(alarm);
+        mine = null;
+        drawn_by = 'chapter';
+        root.classList.remove('mine');
+        hire(report.workers);
+        root.dispatchEvent(new CustomEvent('mine-failed', {detail: why}));
+        say(why);
+        again(true);
+    }
+
+    /* ---- what is to be done ----------------------------------------------------------------- */
+
+    function step() {
+        const now = seconds(), task = ex.page_next(now);
+        clearTimeout(timer);
+        if (task === DRAFT) {
+            ex.page_begin_anew();
+            run++;
+            running = false;
+            moved_at ||= performance.now();
+            draft();
+            timer = setTimeout(step, 155);
+        } else if (task === REST) {
+            timer = setTimeout(step, 1000 * (ex.page_rests() - now) + 5);
+        } else if (task === REFINE && !running) {
+            refine(true);
+        }
+        show_controls();
+        if (ex.page_inspects())
+            show_path();
+    }
+    function draft() {
+        const w = workers.find(worker => !worker.busy);
+        dirty = !w;
+        if (!w)
+            return;
+        w.busy = true;
+        w.tell({do: 'draft', number: ++number, name: drawn_by, wish: wish()});
+        watch();
+    }
+    function refine(anew) {
+        running = true;
+        if (anew) {
+            run++;
+            results = [[], []];
+            finished_samples = 0;
+            finished_error = -1;
+            report.done = 0;
+            report.started = performance.now();
+            chart.begin();
+        }
+        tell_all({do: 'refine', run, anew, name: drawn_by, other: 0, to_other: 0, samples: ex.page_samples(), wish: wish()});
+        watch();
+    }
+    /* The one to compare with: only when it is looked at, and the picture itself is done. */
+    function refine_other() {
+        const noise = compares() === NOISY, right = drawn_by === 'mine';
+        if (noise || results[1].length > 0 || !(divide > 0 || (chapter.chart === 'error' && compares() === OTHER_NUMBERS)))
+            return;
+        const samples = compares() === ONE_SAMPLE && !right ? 1 : ex.page_samples();
+        results[1] = workers.map(() => ({samples: 0}));
+        tell_all({do: 'refine', run, anew: true, name: 'chapter', other: right ? 0 : 1, to_other: 1, samples, wish: wish()});
+    }
+    /* Something else than what is in the room has changed: more samples, or all again. */
+    function again(anew) {
+        moved_at = 0;
+        running = false;
+        if (visible)
+            refine(anew);
+        show_controls();
+    }
+    function compares() {
+        return drawn_by === 'mine' ? BY_RT_H : chapter.compare === NOISY && !ex.page_denoises() ? BEFORE : chapter.compare;
+    }
+
+    /* ---- what the workers say ---------------------------------------------------------------- */
+
+    function listen(m, w) {
+        if (m.failed !== undefined)
+            return drawn_by === 'mine' ? give_up('crashed: ' + m.failed) : say(`${t('This picture cannot move here')}: ${m.failed}`);
+        clearTimeout(alarm);
+        if (m.draft !== undefined)
+            return show_draft(m, w);
+        if (m.encoded) {
+            m.parts.forEach((part, i) => images[m.other].data.set(m.pixels[i], 4 * 4096 * part));
+            return paint(m.other);
+        }
+        if (m.run !== run)
+            return;
+        if (m.collected)
+            return finish(m);
+        if (m.finished)
+            return show_finished(m);
+        m.parts.forEach((part, i) => images[is_noisy() ? 1 : m.other].data.set(m.pixels[i], 4 * 4096 * part));
+        if (is_noisy() && finished_samples === 0) /* nothing better yet */
+            m.parts.forEach((part, i) => images[0].data.set(m.pixels[i], 4 * 4096 * part));
+        results[m.other][m.k] = m;
+        show_result(m.other);
+        if (!m.done && drawn_by === 'mine')
+            watch();
+    }
+    function is_noisy() { return compares() === NOISY; }
+    function show_draft(m, w) {
+        w.busy = false;
+        if (m.draft > latest && ex.page_next(seconds()) === REST) {
+            latest = m.draft;
+            const small = make('canvas', {width: m.width, height: m.height});
+            small.getContext('2d').putImageData(new ImageData(m.pixels, m.width, m.height), 0, 0);
+            context.imageSmoothingQuality = 'high';
+            context.drawImage(small, 0, 0, W, H);
+            root.classList.add('alive');
+            ex.page_draft_took(m.took / 1000);
+            report.drafts.push(performance.now());
+            if (moved_at)
+                report.moves.push(performance.now() - moved_at);
+            moved_at = 0;
+            say_progress();
+            if (ex.page_inspects())
+                draw_cross();
+        }
+        if (dirty)
+            draft();
+    }
+    /* Of all workers: samples that every pixel has, rays, and the error (see rt_image_error). */
+    function sum_up(which) {
+        const list = results[which].filter(Boolean), all = list.length === workers.length;
+        const sum = value => list.reduce((a, r) => a + (value(r) ?? 0), 0), count = 3 * W * H;
+        const noise = sum(r => r.samples > 1 ? r.squares * (r.samples - (r.samples >> 1)) / (r.samples >> 1) : Infinity);
+        return {samples: all ? Math.min(...list.map(r => r.samples)) : 0, rays: sum(r => r.rays), done: all && list.every(r => r.done),
+            busy: sum(r => r.busy) / 1000, error: noise > 0 ? Math.sqrt(noise / count) / (sum(r => r.sum) / count) : Infinity};
+    }
+    let known_error = Infinity;
+    function show_result(which) {
+        const s = sum_up(which), w = performance.now();
+        if (s.samples < 1)
+            return;
+        if (s.error < Infinity)
+            chart.error(which, s.samples, s.error);
+        if (which === 0) {
+            known_error = s.error;
+            ex.page_progress(s.samples, s.rays, (w - report.started) / 1000);
+            report.first ||= w - begun;
+            report.rate = s.rays / (w - report.started) / 1000;
+            report.per_worker = s.rays / s.busy / 1e6;
+            if (moved_at)
+                report.moves.push(w - moved_at);
+            moved_at = 0;
+            progress.value = s.samples / ex.page_samples();
+            if (is_noisy() && !finishing && s.samples >= 2 && (s.done || s.samples >= 2 * finished_samples)) {
+                finishing = true;
+                collected = [];
+                tell_all({do: 'collect', run});
+            }
+            say_progress();
+        }
+        if (!calm.matches || s.done || (s.samples & (s.samples - 1)) === 0)
+            paint(which);
+        if (s.done && which === 0) {
+            running = false;
+            if (!report.done) {
+                chart.speed(report.rate);
+                if (!is_noisy())
+                    spoken.textContent = t('The picture is done.');
+            }
+            report.done ||= w - report.started;
+            refine_other();
+        }
+        if (s.done && which === 1)
+            report.other_done = true;
+    }
+    /* Chapter 10: all parts to the first worker, which finishes the picture. */
+    let collected = [];
+    function finish(m) {
+        collected[m.k] = m.collected;
+        if (collected.filter(Boolean).length < workers.length)
+            return;
+        const s = sum_up(0), parts = collected.flat();
+        workers[0].tell({do: 'finish', run, parts, samples: s.samples, last: s.done, wish: wish()},
+            parts.flatMap(p => [p.pixels.buffer, p.half.buffer, p.guides.buffer]));
+    }
+    function show_finished(m) {
+        finishing = false;
+        finished_samples = m.samples;
+        finished_error = m.error;
+        report.finishing = m.took;
+        images[0].data.set(m.finished);
+        paint(0);
+        say_progress();
+        if (m.samples >= ex.page_samples() && m.error >= 0)
+            spoken.textContent = t('The picture is done.');
+        show_result(0);
+    }
+    const pending = [false, false];
+    function paint(which) {
+        if (pending[which])
+            return;
+        pending[which] = true;
+        requestAnimationFrame(() => {
+            pending[which] = false;
+            if (ex.page_next(seconds()) === REST)
+                return; /* it moves: the draft is newer */
+            (which ? other_context : context).putImageData(images[which], 0, 0);
+            root.classList.add('alive');
+            if (which === 0 && ex.page_inspects())
+                draw_cross();
+        });
+    }
+    function say(words) { status.textContent = words; }
+    function say_progress() {
+        say(text(ex.page_say_progress(known_error, is_noisy() && finished_samples > 0 ? Math.max(0, finished_error) : -1)));
+    }
+
+    /* ---- pointer and keys --------------------------------------------------------------------- */
+
+    const spot = e => {
+        const box = canvas.getBoundingClientRect();
+        return [(e.clientX - box.left) * W / box.width, (e.clientY - box.top) * H / box.height, 4 * W / box.width];
+    };
+    let held = false;
+    canvas.onpointerdown = e => {
+        const [x, y, slack] = spot(e);
+        if (e.button === 1)
+            return;
+        held = true;
+        ex.page_press(x, y, e.button === 0 ? 1 : 2, slack);
+        canvas.setPointerCapture(e.pointerId);
+        step();
+    };
+    canvas.onpointermove = e => {
+        const [x, y] = spot(e);
+        if (!held) {
+            canvas.style.cursor = ex.page_pick(x, y) ? 'grab' : 'crosshair';
+            return;
+        }
+        ex.page_move(x, y, e.shiftKey ? 1 : 0);
+        step();
+    };
+    canvas.onpointerup = canvas.onpointercancel = e => {
+        if (held && e.type === 'pointerup')
+            ex.page_release();
+        else if (held)
+            ex.page_move(-1, -1, 0), ex.page_release();
+        held = false;
+        step();
+    };
+    canvas.oncontextmenu = e => e.preventDefault();
+    canvas.addEventListener('touchstart', e => { /* a finger moves a thing; elsewhere it scrolls the page */
+        const [x, y] = spot(e.touches[0]);
+        if (ex.page_pick(x, y))
+            e.preventDefault();
+    }, {passive: false});
+    canvas.addEventListener('wheel', e => { /* only when it was chosen: else the page scrolls */
+        if (document.activeElement !== canvas)
+            return;
+        e.preventDefault();
+        ex.page_wheel(-e.deltaY / 100);
+        step();
+    }, {passive: false});
+    canvas.onkeydown = e => {
+        if (e.ctrlKey && !e.getModifierState('AltGraph') || e.metaKey)
+            return;
+        const arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[e.key];
+        let key = e.key.length === 1 ? e.key.toLowerCase().charCodeAt(0) : KEYS[e.key] ?? 0;
+        if (!'123456789+-=[]'.includes(e.key) && /^Digit[1-7]$/.test(e.code)) /* a French keyboard */
+            key = e.code.charCodeAt(5);
+        if (e.key === 'Escape' || e.key === 'i') {
+            if (!ex.page_inspects())
+                return;
+            close_path();
+        } else if (e.key === 'Enter') {
+            look_at(W >> 1, H >> 1);
+        } else if (arrow && e.shiftKey && ex.page_inspects()) {
+            look_at(at.x + 4 * arrow[0], at.y - 4 * arrow[1]);
+        } else if (arrow && thing > 0) {
+            nudge(...arrow, e.shiftKey);
+        } else if (e.key === 'b') {
+            hold(true);
+        } else if (e.key === 'g') {
+            set_gamma(gamma_is === 1 ? 0 : 1);
+        } else if ('+-='.includes(e.key)) {
+            ex.page_key(key);
+            again(false);
+        } else if (e.key === 'p') {
+            ex.page_key(key);
+            again(true);
+        } else if (key > 0 && (key >= 256 || '1234567dlrv[]'.includes(String.fromCharCode(key)))) {
+            ex.page_key(key);
+            if (e.key === 'r')
+                as_at_first();
+            step();
+        } else {
+            return;
+        }
+        e.preventDefault();
+    };
+    canvas.onkeyup = e => { if (e.key === 'b') hold(false); };
+    function hold(on) {
+        root.style.setProperty('--divide', (on ? 100 : divide) + '%');
+        root.classList.toggle('comparing', on || divide > 0);
+        if (on) {
+            const before = divide;
+            divide = 100;
+            refine_if_done();
+            divide = before;
+        }
+    }
+    function refine_if_done() { if (!running) refine_other(); }
+    function nudge(right, up, floor) { ex.page_nudge(thing, right, up, floor ? 1 : 0); step(); }
+    let gamma_is = 0;
+    function set_gamma(gamma) {
+        gamma_is = gamma;
+        ex.page_set_gamma(gamma);
+        tell_all({do: 'encode', name: drawn_by, other: 0, to_other: 0, wish: wish()});
+        show_controls();
+    }
+    function as_at_first() {
+        gamma_is = thing = 0;
+        ex.page_set_comparison(chapter.compare);
+        set_divide(0);
+    }
+    function set_divide(to) {
+        divide = to;
+        hold(false);
+        refine_if_done();
+        show_controls();
+    }
+
+    /* ---- the path of a pixel ------------------------------------------------------------------- */
+
+    const at = {x: 0, y: 0, sample: 0};
+    function look_at(x, y, sample = 0) {
+        Object.assign(at, {x: Math.min(W - 1, Math.max(0, x)), y: Math.min(H - 1, Math.max(0, y)), sample});
+        ex.page_inspect(at.x, at.y, sample);
+        show_path();
+        paint(0);
+    }
+    function close_path() {
+        ex.page_key('i'.charCodeAt(0));
+        root.classList.remove('inspecting');
+        paint(0);
+        canvas.focus();
+    }
+    function show_path() {
+        root.classList.add('inspecting');
+        const box = plan.getBoundingClientRect(), density = devicePixelRatio || 1;
+        const width = box.width || 300, height = box.height || 220;
+        plan.width = width * density;
+        plan.height = height * density;
+        const count = ex.page_plan(width, height), floats = new Float32Array(memory(ex.page_lines(), 24 * count).slice().buffer);
+        const kinds = new Int32Array(floats.buffer), c = plan.getContext('2d'), colours = getComputedStyle(root);
+        c.scale(density, density);
+        for (let i = 0; i < 6 * count; i += 6) {
+            c.strokeStyle = colours.getPropertyValue('--kind-' + kinds[i + 5]);
+            c.lineWidth = floats[i + 4];
+            c.setLineDash(kinds[i + 5] === 6 ? [4, 3] : []);
+            c.beginPath();
+            c.moveTo(floats[i], floats[i + 1]);
+            c.lineTo(floats[i + 2], floats[i + 3]);
+            c.stroke();
+        }
+        const [head, ...rest] = text(ex.page_words()).replace(' (v)', '').split('\n');
+        const found = head.match(/pixel (\d+),(\d+), sample (\d+)/);
+        Object.assign(at, {x: +found[1], y: +found[2], sample: +found[3]});
+        where.textContent = head;
+        said.textContent = rest.join('\n').trim();
+        if (ex.page_next(seconds()) !== REST)
+            paint(0);
+    }
+    function draw_cross() {
+        context.strokeStyle = '#fff';
+        context.lineWidth = 1;
+        context.beginPath();
+        for (const [x0, y0, x1, y1] of [[-9, 0, -3, 0], [3, 0, 9, 0], [0, -9, 0, -3], [0, 3, 0, 9]]) {
+            context.moveTo(at.x + 0.5 + x0, at.y + 0.5 + y0);
+            context.lineTo(at.x + 0.5 + x1, at.y + 0.5 + y1);
+        }
+        context.stroke();
+    }
+
+    /* ---- the elements ------------------------------------------------------------------------------ */
+
+    function build() {
+        const still = [...root.querySelectorAll('img')].at(-1), image = still.cloneNode(), alt = still.alt;
+        const picture = make('canvas', {class: 'picture', width: W, height: H, tabindex: 0, role: 'application',
+            'aria-label': `${alt}. Drag to move; Enter: the path of a pixel. Arrows, page up and down, 1 to 7, plus, minus, b, r.`});
+        const before = make('canvas', {class: 'other', width: W, height: H, 'aria-hidden': 'true'});
+        const stage = make('div', {class: 'stage'}, image, picture, before, make('span', {class: 'line', 'aria-hidden': 'true'}));
+        const plan = make('canvas', {class: 'plan', role: 'img', 'aria-label': 'Plan of the room with the path; the same in words below'});
+        const said = make('pre', {class: 'words', tabindex: 0, 'aria-label': 'The path in words'}), where = make('span', {'aria-live': 'polite'});
+        const button = (text, label, onclick) => make('button', {type: 'button', text, 'aria-label': label ?? false, onclick});
+        const legend = make('p', {class: 'legend'}, ...[1, 2, 3, 4, 5, 6].map(kind =>
+            make('span', {style: `--c: var(--kind-${kind})`, text: text_of_kind(kind)})));
+        const inspector = make('div', {class: 'inspector'}, make('div', {class: 'bar'}, where,
+            button('−', t('sample before'), () => look_at(at.x, at.y, Math.max(0, at.sample - 1))),
+            button('+', t('next sample'), () => look_at(at.x, at.y, at.sample + 1)),
+            button(`${t('from above')} / ${t('from the side')}`, null, () => { ex.page_key('v'.charCodeAt(0)); show_path(); }),
+            button('×', t('close'), close_path)), plan, legend, said);
+        const progress = make('progress', {max: 1, value: 0, 'aria-label': t('samples')}), status = make('div', {class: 'status'});
+        const spoken = make('div', {class: 'spoken', 'aria-live': 'polite'});
+        const controls = {}, bar = make('div', {class: 'bar'}), chart = make_chart();
+
+        const slider = (key, name, min, max, step, value, show, set) => {
+            const input = make('input', {type: 'range', min, max, step}), output = make('output');
+            input.oninput = () => set(+input.value);
+            controls[key] = () => { input.value = value(); output.textContent = show(); };
+            return make('label', {class: 'wide'}, t(name), ' ', input, output);
+        };
+        const box = (key, name, value, set) => {
+            const input = make('input', {type: 'checkbox'});
+            input.onchange = () => set(input.checked);
+            controls[key] = () => { input.checked = value(); };
+            return make('label', {}, input, t(name));
+        };
+        const known = {
+            samples: () => slider('samples', 'samples', 0, 10, 1, () => Math.log2(ex.page_samples()), () => ex.page_samples(), to => {
+                const more = 2 ** to > ex.page_samples();
+                ex.page_set_samples(2 ** to);
+                again(!more);
+            }),
+            bounces: () => slider('bounces', 'bounces', 0, 10, 1, () => Math.min(10, ex.page_bounces()), () => ex.page_bounces(),
+                to => { ex.page_set_bounces(to); step(); }),
+            gamma: () => slider('gamma', 'gamma', 1, 3, 0.1, () => gamma_is || 2.2, () => (gamma_is || 2.2).toFixed(1), set_gamma),
+            lanes: () => box('lanes', `4 ${t('rays at a time')}`, () => ex.page_lanes() > 1, () => { ex.page_key('p'.charCodeAt(0)); again(true); }),
+            workers: () => slider('workers', 'workers', 1, Math.min(8, navigator.hardwareConcurrency ?? 2), 1, () => workers.length, () => workers.length,
+                to => { hire(to); again(true); }),
+            sampler: () => box('sampler', 'Sobol numbers', () => ex.page_sobol(), () => { ex.page_key('l'.charCodeAt(0)); step(); }),
+            denoise: () => box('denoise', 'without noise', () => ex.page_denoises(), () => { ex.page_key('d'.charCodeAt(0)); again(true); }),
+            stages: () => {
+                const names = ['', 'sphere', 'walls', 'cube', 'shadows', 'gamma', 'mirror', 'indirect'];
+                const set = make('fieldset', {class: 'stages'}, make('legend', {class: 'spoken', text: t('as in chapter')}));
+                const inputs = [1, 2, 3, 4, 5, 6, 7].map(stage => {
+                    const input = make('input', {type: 'radio', name: root.id + '-stage', value: stage, onchange: () => { ex.page_set_stage(stage); step(); }});
+                    set.append(make('label', {}, input, make('span', {}, `${stage} `, make('small', {text: names[stage]}))));
+                    return input;
+                });
+                controls.stages = () => inputs.forEach((input, i) => { input.checked = i + 1 === ex.page_stage(); });
+                return set;
+            },
+        };
+        for (const key of chapter.controls)
+            bar.append(known[key]());
+        const compare = make('span'), divider = make('input', {type: 'range', class: 'divide', min: 0, max: 100, value: 0, oninput: () => set_divide(+divider.value)});
+        controls.compare = () => {
+            divider.value = divide;
+            compare.textContent = `${t('compare with')} ${drawn_by === 'mine' ? t('the right one') : t(text(ex.page_comparison(compares())))}`;
+        };
+        const list = make('select', {onchange: () => { thing = list.selectedIndex; }}, ...THINGS.slice(0, first_stage < 3 ? 2 : undefined).map(name => make('option', {text: t(name)})));
+        controls.thing = () => { list.selectedIndex = thing; };
+        const pad = make('span', {class: 'pad'}, ...[['←', 'left', -1, 0], ['↑', 'up', 0, 1], ['↓', 'down', 0, -1], ['→', 'right', 1, 0]].map(
+            ([sign, name, x, y]) => button(sign, t(name), () => nudge(x, y))),
+            button('+', t('nearer'), () => { ex.page_wheel(1); step(); }), button('−', t('farther'), () => { ex.page_wheel(-1); step(); }));
+        const move = make('div', {class: 'bar'}, make('label', {}, t('move') + ' ', list), pad,
+            button(t('all as at first'), null, () => { ex.page_key('r'.charCodeAt(0)); as_at_first(); step(); }));
+        [...root.children].forEach(child => { child.hidden = true; child.classList.add('still'); });
+        root.append(make('div', {class: 'panes'}, stage, inspector), progress, status, spoken,
+            make('div', {class: 'bar'}, make('label', {class: 'wide'}, compare, ' ', divider)), bar, chart.element, move);
+        return {canvas: picture, other: before, status, spoken, progress, inspector, plan, said, where, controls, chart};
+    }
+    function text_of_kind(kind) { return text(ex.page_kind(kind)); }
+    function show_controls() { Object.values(controls).forEach(show => show()); }
+
+    /* A chart beside the picture that grows with it. */
+    function make_chart() {
+        const element = make('div', {class: 'chart'}), none = () => {};
+        if (chapter.chart === 'error')
+            return error_chart(element);
+        if (chapter.chart === 'speed')
+            return speed_chart(element);
+        return {element, begin: none, error: none, speed: none};
+    }
+    /* The error against the samples, both as logarithms: a straight line for each. */
+    function error_chart(element) {
+        const w = 320, h = 180, left = 44, bottom = 26, lines = [[], []];
+        const x = samples => left + Math.log2(samples) / 10 * (w - left - 8), y = error => 8 + (Math.log10(2) - Math.log10(error)) / 3 * (h - 8 - bottom);
+        function draw() {
+            const grid = [1, 4, 16, 64, 256, 1024].map(s => `<line x1="${x(s)}" x2="${x(s)}" y1="8" y2="${h - bottom}"/><text x="${x(s)}" y="${h - 10}" text-anchor="middle">${s}</text>`)
+                .concat([1, 0.1, 0.01].map(e => `<line x1="${left}" x2="${w - 8}" y1="${y(e)}" y2="${y(e)}"/><text x="${left - 4}" y="${y(e) + 4}" text-anchor="end">${100 * e} %</text>`));
+            const curves = lines.map((line, i) => line.length === 0 ? '' :
+                `<polyline class="curve-${i}" points="${line.map(p => `${x(p[0]).toFixed(1)},${y(p[1]).toFixed(1)}`).join(' ')}"/>` +
+                line.map(p => `<circle class="curve-${i}" cx="${x(p[0]).toFixed(1)}" cy="${y(p[1]).toFixed(1)}" r="2.5"/>`).join(''));
+            const last = lines.map(line => line.at(-1)).filter(Boolean).map(p => `${p[0]} ${t('samples')}: ${(100 * p[1]).toFixed(1)} %`).join('; ');
+            const names = compares() === OTHER_NUMBERS ? (ex.page_sobol() ? ['Sobol', 'random'] : ['random', 'Sobol']) : [''];
+            const key = names.length > 1 ? names.map((name, i) => `<text class="curve-${i}" x="${w - 12}" y="${22 + 14 * i}" text-anchor="end">${name}</text>`).join('') : '';
+            element.innerHTML = `<svg viewBox="0 0 ${w} ${h}" role="img" aria-label="${t('error')}, ${t('samples')}: ${last}">${grid.join('')}${curves.join('')}${key}</svg>` +
+                `<p>${t('error')} (%), ${t('samples')}</p>`;
+        }
+        draw();
+        return {element, speed: () => {}, begin() { lines[0] = []; lines[1] = []; draw(); }, error(which, samples, error) {
+            if (samples > (lines[which].at(-1)?.[0] ?? 0) && samples <= 1024) {
+                lines[which].push([samples, error]);
+                draw();
+            }
+        }};
+    }
+    /* Millions of rays a second, for each setting that was tried. */
+    function speed_chart(element) {
+        const tried = new Map();
+        return {element, begin: () => {}, error: () => {}, speed(rate) {
+            const key = `${ex.page_lanes()} ${t('rays at a time')}, ${workers.length} ${t('workers')}`;
+            tried.set(key, Math.max(rate, tried.get(key) ?? 0));
+            const most = Math.max(...tried.values());
+            element.replaceChildren(make('p', {text: t('million rays a second')}), ...[...tried].map(([name, value]) =>
+                make('div', {class: 'speed'}, make('span', {text: name}), make('meter', {min: 0, max: most, value, 'aria-label': name}), make('b', {text: value.toFixed(1)}))));
+        }};
+    }
+
+    /* ---- from here on it lives ------------------------------------------------------------------------ */
+
+    /* The reader's own routine: the picture by it, beside the right one. */
+    root.addEventListener('mine', e => {
+        mine = e.detail.bytes;
+        drawn_by = 'mine';
+        root.classList.add('mine');
+        workers.forEach(w => { w.busy = false; });
+        tell_all({do: 'module', name: 'mine', bytes: mine});
+        if (divide === 0)
+            set_divide(50);
+        again(true);
+    });
+    root.addEventListener('mine-gone', () => { drawn_by = 'chapter'; root.classList.remove('mine'); again(true); });
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { if (ex.page_inspects()) show_path(); });
+    addEventListener('resize', () => { if (ex.page_inspects()) show_path(); });
+    document.addEventListener('visibilitychange', () => {
+        if (document.hidden)
+            tell_all({do: 'stop'});
+        else if (visible && !report.done)
+            again(false);
+    });
+    new IntersectionObserver(entries => {
+        const now = entries.at(-1).isIntersecting;
+        if (now && !visible) {
+            visible = true;
+            if (!report.done)
+                again(run === 0);
+        }
+        visible = now;
+    }, {rootMargin: '200px'}).observe(root);
+    show_controls();
+    Object.assign(report, {ex, text, images, say_path: () => text(ex.page_explain()), opened: performance.now() - begun});
+    root.live = report;
+}
+
+/* Begin: the module of a chapter came from a script of its own, so that file:// works, too. */
+const modules = window.rt_live ?? {};
+for (const root of document.querySelectorAll('.live[data-demo]')) {
+    const name = root.dataset.demo;
+    if (modules[name])
+        bring_to_life(root, name, modules[name]).catch(error => {
+            for (const child of [...root.children])
+                child.classList.contains('still') || !root.querySelector(':scope > .still') ? child.hidden = false : child.remove();
+            root.append(make('p', {class: 'status', text: `${t('This picture cannot move here')}: ${error.message}`}));
+        });
+}
+})();
