@@ -34,7 +34,7 @@ HEADERS := rt.h $(wildcard demos/*.h)
 PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
-.PHONY: help deps demos test golden check bench docs starters try grade install clean $(DEMOS)
+.PHONY: help deps demos test golden check bench docs web deps-web starters try grade install clean $(DEMOS)
 
 help: ## this list
 	@echo '  make demo01 ... demo10  build and run a chapter; ARGS="1280 960 --samples 64"'
@@ -44,7 +44,10 @@ help: ## this list
 deps: ## install what is missing: SDL2, SDL2_gfx, stb, cmocka, cJSON, OpenMP
 	@.ci/deps install '$(CC)'
 
-ifneq (,$(filter deps,$(MAKECMDGOALS)))
+deps-web: ## likewise for "make web": clang, lld and wasi-libc, node, npm, chromium
+	@.ci/deps web
+
+ifneq (,$(filter deps deps-web,$(MAKECMDGOALS)))
 .NOTPARALLEL: # with -j, too, "deps" comes first
 endif
 
@@ -129,6 +132,9 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/sit
 	docs/gallery.sh
 	tests/classroom/session --docs
 	docs/site.sh
+
+web: ## the chapters' pictures alive in a browser: build/web/pages/index.html
+	@docs/web.sh
 
 install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR
 	install -d -m 755 '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'

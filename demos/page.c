@@ -431,14 +431,14 @@ float EXPORT(page_finished_error)(void)
  * Words and lines; a text lasts until the next one
  * ------------------------------------------------------------------------------------- */
 
-const char *EXPORT(page_say_progress)(double error, double clean_error)
+/* error: of the picture with its noise; of so many samples it was finished, 0: not yet. */
+const char *EXPORT(page_say_progress)(double error, int finished, double finished_error)
 {
     text out = text_in(words, sizeof words);
-    const bool clean = clean_error >= 0.0;
-    v.clean.samples = v.image.samples;
+    v.clean.samples = finished;
     v.clean.rays = v.image.rays;
-    v.clean_error = (float)clean_error;
-    viewer_say_progress(&v, clean ? &v.clean : &v.image, (float)error, 0.0, &out);
+    v.clean_error = (float)finished_error;
+    viewer_say_progress(&v, finished > 0 ? &v.clean : &v.image, (float)error, 0.0, &out);
     return words;
 }
 

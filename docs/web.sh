@@ -22,7 +22,7 @@ for chapter in docs/[01]*.md; do
     number=$(basename "$chapter" | cut -c1-2)
     title=$(sed -n '1s/^# //p' "$chapter")
     alt=$(sed -n "s/^!\\[\\(.*\\)\\](images\\/demo$number\\.png)\$/\\1/p" "$chapter")
-    try=$(sed -n 's/^\*\*Try this:\*\* //p' "$chapter")
+    try=$(sed -n 's/^\*\*\(Try this:\)\*\*/\1/p' "$chapter" | tr -d '*`')
     page "demo$number.html" "$title" <<END
 <nav class="top"><a href="index.html">all pictures</a></nav>
 <main>

@@ -222,7 +222,8 @@ const chapters = {
 };
 
 async function bring_to_life(root, name, encoded) {
-    const W = +(root.dataset.width ?? 480), H = +(root.dataset.height ?? 360), chapter = chapters[name];
+    const asked = new URLSearchParams(location.search); /* ?workers=1&size=240x180 */
+    const [W, H] = (asked.get('size') ?? '480x360').split('x').map(Number), chapter = chapters[name];
     const bytes = Uint8Array.from(atob(encoded), c => c.charCodeAt(0));
     const begun = performance.now(), seconds = () => performance.now() / 1000;
     const {ex, text, bytes: memory, wish} = open(await WebAssembly.compile(bytes), W, H);
@@ -239,7 +240,7 @@ async function bring_to_life(root, name, encoded) {
     ex.page_set_comparison(chapter.compare);
     const {canvas, other, status, spoken, progress, inspector, plan, said, where, controls, chart} = build();
     const context = canvas.getContext('2d'), other_context = other.getContext('2d');
-    hire(+(new URLSearchParams(location.search).get('workers') ?? Math.min(8, navigator.hardwareConcurrency ?? 2)));
+    hire(+(asked.get('workers') ?? Math.min(8, navigator.hardwareConcurrency ?? 2)));
 
     /* ---- workers ------------------------------------------------------------------------- */
 
@@ -329,6 +330,7 @@ async function bring_to_life(root, name, encoded) {
         if (anew) {
             run++;
             results = [[], []];
+            finishing = false;
             finished_samples = 0;
             finished_error = -1;
             report.done = 0;
@@ -432,7 +434,7 @@ async function bring_to_life(root, name, encoded) {
                 report.moves.push(w - moved_at);
             moved_at = 0;
             progress.value = s.samples / ex.page_samples();
-            if (is_noisy() && !finishing && s.samples >= 2 && (s.done || s.samples >= 2 * finished_samples)) {
+            if (is_noisy() && !finishing && s.samples >= 2 && (s.done ? s.samples > finished_samples : s.samples >= 2 * finished_samples)) {
                 finishing = true;
                 collected = [];
                 tell_all({do: 'collect', run});
@@ -493,7 +495,7 @@ async function bring_to_life(root, name, encoded) {
     }
     function say(words) { status.textContent = words; }
     function say_progress() {
-        say(text(ex.page_say_progress(known_error, is_noisy() && finished_samples > 0 ? Math.max(0, finished_error) : -1)));
+        say(text(ex.page_say_progress(known_error, is_noisy() ? finished_samples : 0, Math.max(0, finished_error))));
     }
 
     /* ---- pointer and keys --------------------------------------------------------------------- */
