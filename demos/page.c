@@ -442,10 +442,12 @@ const char *EXPORT(page_say_progress)(double error, int finished, double finishe
     return words;
 }
 
-/* The path of a sample of the pixel; page_lines() has as many lines as it returns. */
-int EXPORT(page_plan)(float width, float height)
+/* The path of a sample of the pixel, from above or from the side, and its words; page_lines() has as
+ * many lines as it returns. */
+int EXPORT(page_plan)(float width, float height, int side)
 {
     text summary = text_in(words, sizeof words);
+    v.side = side != 0;
     return viewer_plan(&v, width, height, lines, &summary, NULL);
 }
 

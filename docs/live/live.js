@@ -175,8 +175,8 @@ const french = {
     'samples': 'échantillons', 'bounces': 'rebonds', 'all as at first': 'tout comme au début', 'the camera': 'la caméra',
     'the ball': 'la boule', 'the mirror': 'le miroir', 'the cube': 'le cube', 'the lamp': 'la lampe', 'move': 'déplacer',
     'left': 'à gauche', 'right': 'à droite', 'up': 'en haut', 'down': 'en bas', 'nearer': 'plus près', 'farther': 'plus loin',
-    'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample before': 'échantillon précédent',
-    'next sample': 'échantillon suivant', 'compare with': 'comparer avec', 'the chapter before': 'le chapitre précédent',
+    'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample': 'échantillon', 'The path': 'Le chemin', 'The path in words': 'Le chemin en mots', 'sample before': 'échantillon précédent',
+    'next sample': 'échantillon suivant', 'on the left': 'à gauche', 'the chapter before': 'le chapitre précédent',
     'one sample': 'un seul échantillon', 'other numbers': 'd’autres nombres', 'with its noise': 'avec son bruit',
     'the right one': 'l’image juste', 'rt.h\'s own function': 'la fonction de rt.h',
     'rays at a time': 'rayons à la fois', 'workers': 'processus', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
@@ -238,7 +238,7 @@ async function bring_to_life(root, name, encoded) {
     const report = {first: 0, moves: [], drafts: [], done: 0, workers: 0}; /* for tests and the curious */
 
     ex.page_set_comparison(chapter.compare);
-    const {canvas, other, status, spoken, progress, inspector, plan, said, where, controls, chart} = build();
+    const {canvas, other, status, spoken, progress, plans, said, where, controls, chart} = build();
     const context = canvas.getContext('2d'), other_context = other.getContext('2d');
     hire(+(asked.get('workers') ?? Math.min(8, navigator.hardwareConcurrency ?? 2)));
 
@@ -422,7 +422,7 @@ async function bring_to_life(root, name, encoded) {
         const s = sum_up(which), w = performance.now();
         if (s.samples < 1)
             return;
-        if (s.error < Infinity)
+        if (s.error < Infinity && (which === 0 || compares() === OTHER_NUMBERS))
             chart.error(which, s.samples, s.error);
         if (which === 0) {
             known_error = s.error;
@@ -571,7 +571,7 @@ async function bring_to_life(root, name, encoded) {
         } else if (e.key === 'p') {
             ex.page_key(key);
             again(true);
-        } else if (key > 0 && (key >= 256 || '1234567dlrv[]'.includes(String.fromCharCode(key)))) {
+        } else if (key > 0 && (key >= 256 || '1234567dlr[]'.includes(String.fromCharCode(key)))) {
             ex.page_key(key);
             if (e.key === 'r')
                 as_at_first();
@@ -630,11 +630,21 @@ async function bring_to_life(root, name, encoded) {
     }
     function show_path() {
         root.classList.add('inspecting');
+        plans.forEach(draw_plan);
+        const [head, ...rest] = text(ex.page_words()).split('\n');
+        const [, x, y, sample] = head.match(/pixel (\d+),(\d+), sample (\d+)/).map(Number);
+        Object.assign(at, {x, y, sample});
+        where.textContent = `pixel ${x},${y}, ${t('sample')} ${sample}`;
+        said.textContent = rest.join('\n').trim();
+        if (ex.page_next(seconds()) !== REST)
+            paint(0);
+    }
+    function draw_plan(plan, side) {
         const box = plan.getBoundingClientRect(), density = devicePixelRatio || 1;
-        const width = box.width || 300, height = box.height || 220;
+        const width = box.width || 150, height = box.height || 150;
         plan.width = width * density;
         plan.height = height * density;
-        const count = ex.page_plan(width, height), floats = new Float32Array(memory(ex.page_lines(), 24 * count).slice().buffer);
+        const count = ex.page_plan(width, height, side), floats = new Float32Array(memory(ex.page_lines(), 24 * count).slice().buffer);
         const kinds = new Int32Array(floats.buffer), c = plan.getContext('2d'), colours = getComputedStyle(root);
         c.scale(density, density);
         for (let i = 0; i < 6 * count; i += 6) {
@@ -646,13 +656,6 @@ async function bring_to_life(root, name, encoded) {
             c.lineTo(floats[i + 2], floats[i + 3]);
             c.stroke();
         }
-        const [head, ...rest] = text(ex.page_words()).replace(' (v)', '').split('\n');
-        const found = head.match(/pixel (\d+),(\d+), sample (\d+)/);
-        Object.assign(at, {x: +found[1], y: +found[2], sample: +found[3]});
-        where.textContent = head;
-        said.textContent = rest.join('\n').trim();
-        if (ex.page_next(seconds()) !== REST)
-            paint(0);
     }
     function draw_cross() {
         context.strokeStyle = '#fff';
@@ -673,16 +676,16 @@ async function bring_to_life(root, name, encoded) {
             'aria-label': `${alt}. Drag to move; Enter: the path of a pixel. Arrows, page up and down, 1 to 7, plus, minus, b, r.`});
         const before = make('canvas', {class: 'other', width: W, height: H, 'aria-hidden': 'true'});
         const stage = make('div', {class: 'stage'}, image, picture, before, make('span', {class: 'line', 'aria-hidden': 'true'}));
-        const plan = make('canvas', {class: 'plan', role: 'img', 'aria-label': 'Plan of the room with the path; the same in words below'});
-        const said = make('pre', {class: 'words', tabindex: 0, 'aria-label': 'The path in words'}), where = make('span', {'aria-live': 'polite'});
+        const views = ['from above', 'from the side'].map(view => make('figure', {},
+            make('canvas', {class: 'plan', role: 'img', 'aria-label': `${t('The path')}, ${t(view)}`}), make('figcaption', {text: t(view)})));
+        const said = make('pre', {class: 'words', tabindex: 0, 'aria-label': t('The path in words')}), where = make('span', {'aria-live': 'polite'});
         const button = (text, label, onclick) => make('button', {type: 'button', text, 'aria-label': label ?? false, onclick});
         const legend = make('p', {class: 'legend'}, ...[1, 2, 3, 4, 5, 6].map(kind =>
             make('span', {style: `--c: var(--kind-${kind})`, text: text_of_kind(kind)})));
         const inspector = make('div', {class: 'inspector'}, make('div', {class: 'bar'}, where,
             button('−', t('sample before'), () => look_at(at.x, at.y, Math.max(0, at.sample - 1))),
             button('+', t('next sample'), () => look_at(at.x, at.y, at.sample + 1)),
-            button(`${t('from above')} / ${t('from the side')}`, null, () => { ex.page_key('v'.charCodeAt(0)); show_path(); }),
-            button('×', t('close'), close_path)), plan, legend, said);
+            button('×', t('close'), close_path)), make('div', {class: 'plans'}, ...views), legend, said);
         const progress = make('progress', {max: 1, value: 0, 'aria-label': t('samples')}), status = make('div', {class: 'status'});
         const spoken = make('div', {class: 'spoken', 'aria-live': 'polite'});
         const controls = {}, bar = make('div', {class: 'bar'}), chart = make_chart();
@@ -730,7 +733,7 @@ async function bring_to_life(root, name, encoded) {
         const compare = make('span'), divider = make('input', {type: 'range', class: 'divide', min: 0, max: 100, value: 0, oninput: () => set_divide(+divider.value)});
         controls.compare = () => {
             divider.value = divide;
-            compare.textContent = `${t('compare with')} ${drawn_by === 'mine' ? t('the right one') : t(text(ex.page_comparison(compares())))}`;
+            compare.textContent = `${t('on the left')}: ${drawn_by === 'mine' ? t('the right one') : t(text(ex.page_comparison(compares())))}`;
         };
         const list = make('select', {onchange: () => { thing = list.selectedIndex; }}, ...THINGS.slice(0, first_stage < 3 ? 2 : undefined).map(name => make('option', {text: t(name)})));
         controls.thing = () => { list.selectedIndex = thing; };
@@ -742,7 +745,7 @@ async function bring_to_life(root, name, encoded) {
         [...root.children].forEach(child => { child.hidden = true; child.classList.add('still'); });
         root.append(make('div', {class: 'panes'}, stage, inspector), progress, status, spoken,
             make('div', {class: 'bar'}, make('label', {class: 'wide'}, compare, ' ', divider)), bar, chart.element, move);
-        return {canvas: picture, other: before, status, spoken, progress, inspector, plan, said, where, controls, chart};
+        return {canvas: picture, other: before, status, spoken, progress, plans: views.map(view => view.firstChild), said, where, controls, chart};
     }
     function text_of_kind(kind) { return text(ex.page_kind(kind)); }
     function show_controls() { Object.values(controls).forEach(show => show()); }
@@ -759,10 +762,10 @@ async function bring_to_life(root, name, encoded) {
     /* The error against the samples, both as logarithms: a straight line for each. */
     function error_chart(element) {
         const w = 320, h = 180, left = 44, bottom = 26, lines = [[], []];
-        const x = samples => left + Math.log2(samples) / 10 * (w - left - 8), y = error => 8 + (Math.log10(2) - Math.log10(error)) / 3 * (h - 8 - bottom);
+        const x = samples => left + Math.log2(samples) / 10 * (w - left - 16), y = error => 8 + (Math.log10(2) - Math.log10(error)) / 3 * (h - 8 - bottom);
         function draw() {
             const grid = [1, 4, 16, 64, 256, 1024].map(s => `<line x1="${x(s)}" x2="${x(s)}" y1="8" y2="${h - bottom}"/><text x="${x(s)}" y="${h - 10}" text-anchor="middle">${s}</text>`)
-                .concat([1, 0.1, 0.01].map(e => `<line x1="${left}" x2="${w - 8}" y1="${y(e)}" y2="${y(e)}"/><text x="${left - 4}" y="${y(e) + 4}" text-anchor="end">${100 * e} %</text>`));
+                .concat([1, 0.1, 0.01].map(e => `<line x1="${left}" x2="${w - 16}" y1="${y(e)}" y2="${y(e)}"/><text x="${left - 4}" y="${y(e) + 4}" text-anchor="end">${100 * e} %</text>`));
             const curves = lines.map((line, i) => line.length === 0 ? '' :
                 `<polyline class="curve-${i}" points="${line.map(p => `${x(p[0]).toFixed(1)},${y(p[1]).toFixed(1)}`).join(' ')}"/>` +
                 line.map(p => `<circle class="curve-${i}" cx="${x(p[0]).toFixed(1)}" cy="${y(p[1]).toFixed(1)}" r="2.5"/>`).join(''));

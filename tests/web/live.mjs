@@ -252,7 +252,7 @@ tests['chapter 9: the error of both kinds of numbers'] = async () => {
 tests['the divider shows the other picture'] = async () => {
     const five = await open('demo05');
     await done(five);
-    await slide(five, 'compare', 40);
+    await slide(five, 'on the left', 40);
     await five.waitForFunction(() => document.querySelector('.live').live.other_done);
     assert.equal(await hash(five, 1), await nativeHash(five, 'demo04'));
     assert.equal(await five.$eval('.other', canvas => getComputedStyle(canvas).visibility), 'visible');
@@ -280,10 +280,8 @@ tests['a click tells what --explain tells'] = async () => {
     await button(page, '+');
     assert.match(await text(page, '.inspector .bar span'), /sample 1/);
     assert.notEqual(await text(page, '.words'), above);
-    const plan = () => page.$eval('.plan', canvas => canvas.toDataURL());
-    const before = await plan();
-    await press(page, 'v');
-    assert.notEqual(await plan(), before);
+    const [from_above, from_the_side] = await page.$$eval('.plan', list => list.map(canvas => canvas.toDataURL()));
+    assert.notEqual(from_above, from_the_side);
     await press(page, 'Escape');
     assert.equal(await page.$eval('.inspector', element => getComputedStyle(element).display), 'none');
     await press(page, 'Enter');
@@ -405,7 +403,7 @@ if (pictures) {
         for (const [name, width, scheme] of [['desk', 1100, 'light'], ['desk-dark', 1100, 'dark'], ['phone', 360, 'light'], ['phone-dark', 360, 'dark']]) {
             const page = await open(demo, { size: [480, 360], width, features: [{ name: 'prefers-color-scheme', value: scheme }] });
             await done(page);
-            await slide(page, 'compare', 50);
+            await slide(page, 'on the left', 50);
             const [x, y] = await place(page, 350, 240);
             if (scheme === 'dark')
                 await page.mouse.click(x, y);
