@@ -1,5 +1,5 @@
-// A real browser for the tests of the pages: Chromium by puppeteer-core, and a server of our own.
-// Where one of them is missing, this says so in one line and ends.
+// A real browser for the tests of the pages: Chromium, or with --firefox Firefox, by puppeteer-core, and
+// a server of our own. Where one of them is missing, this says so in one line and ends.
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
@@ -13,9 +13,10 @@ function note(words) {
     process.exit(0);
 }
 
-const browserPath = (process.env.PATH ?? '').split(':')
-    .flatMap(path => ['chromium', 'chromium-browser', 'google-chrome'].map(name => join(path, name)))
-    .find(existsSync) ?? note('chromium is missing (make deps-web)');
+export const firefox = process.argv.includes('--firefox');
+const names = firefox ? ['firefox', 'firefox-esr'] : ['chromium', 'chromium-browser', 'google-chrome'];
+const browserPath = (process.env.PATH ?? '').split(':').flatMap(path => names.map(name => join(path, name)))
+    .find(existsSync) ?? note(`${names[0]} is missing (Debian: apt-get install ${names[0].replace('fox', 'fox-esr')})`);
 if (!existsSync(`${build}/web/node_modules/puppeteer-core`))
     note('puppeteer-core is missing (make deps-web)');
 const packages = createRequire(resolve(`${build}/web/package.json`));
@@ -43,8 +44,8 @@ export async function serve(folder) {
 
 const profile = mkdtempSync(join(tmpdir(), 'rt-pages-'));
 export const browser = await puppeteer.launch({
-    executablePath: browserPath, headless: true, userDataDir: profile,
-    args: process.getuid?.() === 0 ? ['--no-sandbox'] : [],
+    browser: firefox ? 'firefox' : 'chrome', executablePath: browserPath, headless: true, userDataDir: profile,
+    args: process.getuid?.() === 0 && !firefox ? ['--no-sandbox'] : [],
 });
 
 // What no page may do: complain, or ask another machine.
@@ -52,7 +53,8 @@ export const complaints = [];
 export async function newPage({ width = 1100, height = 900, features = [], before, touch = false } = {}) {
     const page = await browser.newPage();
     await page.setViewport({ width, height, hasTouch: touch });
-    await page.emulateMediaFeatures(features);
+    if (features.length > 0)
+        await page.emulateMediaFeatures(features);
     if (before)
         await page.evaluateOnNewDocument(before);
     page.on('pageerror', error => complaints.push(error.message));

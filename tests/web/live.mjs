@@ -1,4 +1,4 @@
-// The live pictures in a real browser: node tests/web/live.mjs [--timed] [--pictures FOLDER] [NAME...]:
+// The live pictures in a real browser: node tests/web/live.mjs [--firefox] [--timed] [--pictures FOLDER] [NAME...]:
 // all tests, or those whose names contain a NAME; --timed: those that measure. To be run at the top of
 // the repository, after "make web demos".
 import assert from 'node:assert/strict';
@@ -6,9 +6,9 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { build, findings, newPage, run } from './browser.mjs';
+import { build, findings, firefox, newPage, run } from './browser.mjs';
 
-const words = process.argv.slice(2);
+const words = process.argv.slice(2).filter(word => word !== '--firefox');
 const timed = words[0] === '--timed' && words.shift() !== '';
 const pictures = words[0] === '--pictures' ? words.splice(0, 2)[1] : undefined;
 const pages = resolve(`${build}/web/pages`);
@@ -343,6 +343,12 @@ tests['many moves start no second loop'] = async () => {
     const moves = await page.evaluate(() => document.querySelector('.live').live.moves);
     assert.ok(Math.min(...moves.slice(0, -1)) < 200, `${moves}`);
 };
+
+if (firefox) {
+    const names = Object.keys(tests).filter(name => /axe|reduced motion|without a script/.test(name));
+    names.forEach(name => delete tests[name]);
+    console.log(`note: not tried in Firefox, which cannot be told: ${names.join('; ')}`);
+}
 
 // ---- how fast it is -----------------------------------------------------------------------------------------
 
