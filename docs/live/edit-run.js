@@ -1,0 +1,48 @@
+// Asks a student's module, tests/classroom/pupil_page.c, in a worker of its own: who waits for
+// the answers (edit-worker.js) ends the worker if they do not come.
+import { Ended, instantiate } from './wasi.js';
+
+const SHOWN = 4000; // bytes of what a kind of input prints
+
+let module;
+
+// Why it stopped, in the words of tests/classroom/sandbox.h.
+function reason(error) {
+    if (error instanceof Ended)
+        return error.message;
+    if (error instanceof RangeError || /recursion/.test(error.message))
+        return 'it crashed: the stack is full (a function that calls itself, without an end?)';
+    if (/unreachable/.test(error.message))
+        return 'it crashed: it came to where it must not be (NULL, abort, assert, no return)';
+    return `it crashed: ${error.message}`;
+}
+
+function ask({ routine, count, inputs, answers }) {
+    let printed = 0;
+    const say = bytes => {
+        const room = SHOWN - printed;
+        if (room > 0)
+            postMessage({ said: bytes.slice(0, room) });
+        printed += bytes.length;
+    };
+    try {
+        const pupil = instantiate(module, say); // a new one, with no memory of the last
+        const at = pupil.pupil_inputs(routine, count);
+        if (at === 0)
+            throw new Ended('it crashed: not enough memory');
+        new Float32Array(pupil.memory.buffer, at, inputs.length).set(inputs);
+        const from = pupil.pupil_answers();
+        return { answers: new Float32Array(pupil.memory.buffer, from, answers).slice(), printed };
+    } catch (error) {
+        return { why: reason(error), printed };
+    }
+}
+
+onmessage = ({ data }) => {
+    if (data.bytes) {
+        module = new WebAssembly.Module(data.bytes);
+        postMessage({ ready: true });
+    } else {
+        postMessage(ask(data));
+    }
+};
