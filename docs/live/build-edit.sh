@@ -53,9 +53,11 @@ for object in $EDIT_OBJECTS; do
     objects="$objects $(basename "$object")"
 done
 for name in $names; do
-    printf '#ifdef %s\n#undef %s\ntypedef int %s;\n' "$name" "$name" "$name"
-    printf '__attribute__((export_name("replaces_%s"))) void replaces_%s(void) {}\n' "$name" "$name"
-    echo '#endif'
+    echo "#ifdef $name"
+    echo "#undef $name"
+    echo "typedef int $name;"
+    echo "PUPIL_ANSWERS($name, call_${name#rt_})"
+    echo "#endif"
 done | FLAGS=$flags OBJECTS=$objects node $here/pack.mjs "$source" $files >"$folder/edit-files.json"
 
 # Who judges; the texts to begin with; the scripts.

@@ -17,7 +17,7 @@ function reason(error) {
     return `it crashed: ${error.message}`;
 }
 
-function ask({ routine, count, inputs, answers }) {
+function ask({ routine, count, ins, outs, inputs }) {
     let printed = 0;
     const say = bytes => {
         const room = SHOWN - printed;
@@ -27,12 +27,11 @@ function ask({ routine, count, inputs, answers }) {
     };
     try {
         const pupil = instantiate(module, say); // a new one, with no memory of the last
-        const at = pupil.pupil_inputs(routine, count);
-        if (at === 0)
-            throw new Ended('it crashed: not enough memory');
+        const at = pupil.pupil_inputs(count * ins, count * outs);
         new Float32Array(pupil.memory.buffer, at, inputs.length).set(inputs);
-        const from = pupil.pupil_answers();
-        return { answers: new Float32Array(pupil.memory.buffer, from, answers).slice(), printed };
+        const from = pupil[`answer_${routine}`](count, ins, outs);
+        const answers = new Float32Array(pupil.memory.buffer, from, count * outs).slice();
+        return { answers, printed };
     } catch (error) {
         return { why: reason(error), printed };
     }

@@ -182,11 +182,10 @@ async function start(wasm) {
 
 // The verdict about one kind of input is printed; undefined if meanwhile there is a newer text.
 async function judgeKind(kind, routine, heard, stale) {
-    const count = judge.page_ask(kind, 0);
-    const inputs = new Float32Array(judge.memory.buffer, judge.page_inputs(),
-        judge.page_input_numbers()).slice();
+    const count = judge.page_ask(kind, 0), ins = judge.page_ins(), outs = judge.page_outs();
+    const inputs = new Float32Array(judge.memory.buffer, judge.page_inputs(), count * ins).slice();
     const waiting = answer(SECONDS, heard);
-    runner.postMessage({ routine, count, inputs, answers: judge.page_answer_numbers() });
+    runner.postMessage({ routine, count, ins, outs, inputs });
     const got = await waiting;
     if (stale())
         return undefined;
@@ -222,7 +221,7 @@ async function judgeAll(wasm, names, stale) {
         for (let k = 0, more = true; more && k < judge.page_kinds(); k++) {
             if (!judge.page_is_of(k, i))
                 continue;
-            const got = await judgeKind(k, i, heard, stale);
+            const got = await judgeKind(k, name, heard, stale);
             if (!got)
                 return undefined;
             result.dangerous ||= !got.answers;
@@ -253,8 +252,8 @@ onmessage = async ({ data: { code, name } }) => {
     if (!bytes)
         return postMessage({ said, list, times });
     const names = WebAssembly.Module.exports(await WebAssembly.compile(bytes))
-        .map(({ name }) => name).filter(name => name.startsWith('replaces_'))
-        .map(name => name.slice(9));
+        .map(({ name }) => name).filter(name => name.startsWith('answer_'))
+        .map(name => name.slice(7));
     if (names.length === 0)
         return postMessage({
             said: 'replaces nothing: there is no line like #define rt_reflect my_reflect',

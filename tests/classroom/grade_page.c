@@ -68,14 +68,15 @@ float *EXPORT(page_answers)(void)
     return asked.out;
 }
 
-int EXPORT(page_input_numbers)(void)
+/* How many numbers are one input, and one answer? */
+int EXPORT(page_ins)(void)
 {
-    return asked.count * asked.ins;
+    return asked.ins;
 }
 
-int EXPORT(page_answer_numbers)(void)
+int EXPORT(page_outs)(void)
 {
-    return asked.count * asked.outs;
+    return asked.outs;
 }
 
 /* Where to write why it did not get to its end, and how much fits. */
