@@ -115,6 +115,7 @@ self.rtEditor = (div, folder) => {
                 keymap.of([{ key: 'Mod-Enter', run: attempt }, ...defaultKeymap,
                     ...historyKeymap, indentWithTab]),
                 EditorView.contentAttributes.of({
+                    tabindex: '0',
                     'aria-label': `${mine()}, in C. Ctrl-Enter compiles; ` +
                         'Escape, then Tab leaves the editor',
                 }),

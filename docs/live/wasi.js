@@ -3,7 +3,7 @@
 
 export class Ended extends Error {} // the message says why
 
-const GOOD = 0, NO_SUCH_CHANNEL = 8, CANNOT_SEEK = 70, TERMINAL = 2;
+const GOOD = 0, NO_SUCH_CHANNEL = 8, CANNOT_SEEK = 70, TERMINAL = 2, FOLDER = 3;
 
 // say(bytes) gets what is printed.
 export function instantiate(module, say) {
@@ -36,10 +36,12 @@ export function instantiate(module, say) {
             return GOOD;
         },
         fd_fdstat_get(channel, at) {
-            if (channel > 2)
+            if (channel > 3)
                 return NO_SUCH_CHANNEL;
-            new Uint8Array(memory.buffer, at, 24).fill(0);
-            view().setUint8(at, TERMINAL);
+            const bytes = new Uint8Array(memory.buffer, at, 24);
+            bytes.fill(0);
+            bytes[0] = channel === 3 ? FOLDER : TERMINAL;
+            bytes.fill(channel === 3 ? 255 : 0, 8); // all rights, or none: it cannot be searched
             return GOOD;
         },
         fd_write(channel, list, count, at) {
@@ -61,7 +63,7 @@ export function instantiate(module, say) {
         },
         fd_seek: () => CANNOT_SEEK,
         fd_close: () => GOOD,
-        // There is one folder, "/": without any, the C library would answer by itself that a
+        // There is one folder, "/", on channel 3: without any, the C library would answer by itself that a
         // file is not there, and nobody would know that it was asked.
         fd_prestat_get(channel, at) {
             if (channel !== 3)
