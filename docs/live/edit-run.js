@@ -10,7 +10,7 @@ let module;
 function reason(error) {
     if (error instanceof Ended)
         return error.message;
-    if (error instanceof RangeError || /recursion/.test(error.message))
+    if (/call stack|recursion/.test(error.message))
         return 'it crashed: the stack is full (a function that calls itself, without an end?)';
     if (/unreachable/.test(error.message))
         return 'it crashed: it came to where it must not be (NULL, abort, assert, no return)';

@@ -5,6 +5,7 @@ import { instantiate, text } from './wasi.js';
 const SECONDS = 3; // for a kind of input, as in tests/classroom/grade.c
 const LARGEST = 1 << 20; // bytes of a file, as there
 const SHOWN = 4000; // letters of what the student's routines print
+const STEP = 2e6; // bytes: so often it says how much has come
 const STORE = 'rt.h: C compiler';
 
 /* global VERSION */ // of the compiler: put here by build-edit.sh
@@ -34,8 +35,8 @@ async function part(name, type) {
     }
     const count = new TransformStream({
         transform(chunk, out) {
-            loaded += chunk.length;
-            postMessage({ loaded });
+            if (Math.floor(loaded / STEP) < Math.floor((loaded += chunk.length) / STEP))
+                postMessage({ loaded });
             out.enqueue(chunk);
         },
     });
@@ -53,12 +54,11 @@ self.fetch = request => {
             : part(name, 'application/wasm');
 };
 
-async function json(name) {
-    return (await server(here(name))).json();
-}
-
 async function bytes(name) {
-    return new Uint8Array(await (await server(here(name))).arrayBuffer());
+    const response = await server(here(name));
+    if (!response.ok)
+        throw new Error(`${name}: the server says ${response.status}`);
+    return new Uint8Array(await response.arrayBuffer());
 }
 
 let llvm, project, judge, told = '';
@@ -66,14 +66,14 @@ const storing = store();
 const opening = (async () => {
     const { runLLVM } = await import('@yowasp/clang');
     llvm = runLLVM;
-    project = await json('edit-files.json');
+    project = JSON.parse(new TextDecoder().decode(await bytes('edit-files.json')));
     project.linked = await Promise.all(project.objects.map(bytes));
     const module = await WebAssembly.compile(await bytes('grade.wasm'));
     judge = instantiate(module, said => { told += new TextDecoder().decode(said); });
     await llvm(null, {}, { fetchProgress: () => { } });
     postMessage({ ready: true });
-})();
-opening.catch(error => postMessage({ broken: `The compiler did not come: ${error.message}` }));
+    return true;
+})().catch(error => postMessage({ broken: `The compiler did not come: ${error.message}` }));
 
 // ---- compiling --------------------------------------------------------------------------------
 
@@ -241,7 +241,8 @@ let turn = 0;
 
 onmessage = async ({ data: { code, name } }) => {
     const mine = ++turn, stale = () => mine !== turn;
-    await opening;
+    if (!await opening)
+        return;
     await new Promise(resolve => setTimeout(resolve)); // is there a newer text already?
     if (stale())
         return;

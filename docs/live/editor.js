@@ -41,8 +41,9 @@ function keep(routine, code) {
 
 let worker, listener, ready = false, loaded = 0;
 
-// listen(answer) gets what comes, until somebody else asks.
+// listen(answer) gets what comes, until somebody asks anew.
 function ask(folder, question, listen) {
+    listener?.({ dropped: true });
     listener = listen;
     if (!worker) {
         worker = new Worker(`${folder}edit-worker.js`, { type: 'module' });
@@ -53,8 +54,7 @@ function ask(folder, question, listen) {
         };
         worker.onerror = event => listener({ broken: `The compiler stopped: ${event.message}` });
     }
-    if (question)
-        worker.postMessage(question);
+    worker.postMessage(question);
 }
 
 function end() {
@@ -155,9 +155,9 @@ self.rtEditor = (div, folder) => {
     function attempt() {
         clearTimeout(timer);
         clearTimeout(patience);
-        status.textContent = ready ? 'compiling ...' : 'the compiler comes ...';
         const name = mine();
         ask(folder, { code: code(), name }, data => answered(data, name));
+        status.textContent = ready ? 'compiling ...' : 'the compiler comes ...';
         if (ready)
             wait();
         return true; // the key is used
@@ -187,6 +187,9 @@ self.rtEditor = (div, folder) => {
         } else if (data.ready) {
             status.textContent = 'compiling ...';
             wait();
+        } else if (data.dropped) {
+            clearTimeout(patience);
+            status.textContent = '';
         } else if (data.broken) {
             end();
             status.textContent = data.broken;
@@ -202,7 +205,8 @@ self.rtEditor = (div, folder) => {
         }
     }
 
-    function judged({ verdict: text, output: prints, printed: size, bytes, dangerous, marks }) {
+    function judged({ verdict: text, output: prints, printed: size, ...data }) {
+        const { marks, names, bytes, dangerous } = data;
         const good = marks.reduce((sum, m) => sum + m.good, 0);
         const all = marks.reduce((sum, m) => sum + m.all, 0);
         verdict.textContent = text;
@@ -216,7 +220,9 @@ self.rtEditor = (div, folder) => {
                 (more > 0 ? `\n... and ${plural(more, 'byte')} more` : '');
         }
         if (!dangerous)
-            live?.dispatchEvent(new CustomEvent('mine', { detail: { bytes, routine } }));
+            live?.dispatchEvent(new CustomEvent('mine', {
+                detail: { bytes, routine: names.includes(routine) ? routine : names[0] },
+            }));
     }
 
     // ---- errors, in the lines and below ----
