@@ -246,6 +246,7 @@ onmessage = async ({ data: { code, name } }) => {
     await new Promise(resolve => setTimeout(resolve)); // is there a newer text already?
     if (stale())
         return;
+    postMessage({ begun: true });
     const from = performance.now();
     const { bytes, said, list } = compile(code, name);
     const compiled = performance.now();

@@ -15,8 +15,9 @@ function element(name, properties, ...children) {
 let script;
 function load() {
     script ??= new Promise((resolve, reject) => {
-        document.head.append(element('link', { rel: 'stylesheet', href: `${folder}edit.css` }),
-            element('script', { src: `${folder}editor.js`, onload: resolve, onerror: reject }));
+        document.head.append(element('script', {
+            src: `${folder}editor.js`, onload: resolve, onerror: reject,
+        }));
     });
     return script;
 }
@@ -51,5 +52,6 @@ function begin(div) {
     div.append(element('p', {}, button, ' ', note));
 }
 
+document.head.append(element('link', { rel: 'stylesheet', href: `${folder}edit.css` }));
 for (const div of document.querySelectorAll('div.edit'))
     begin(div);

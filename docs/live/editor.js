@@ -11,9 +11,9 @@ import { classHighlighter } from '@lezer/highlight';
 import starters from 'starters'; // { rt_hit_sphere: text }, from tests/classroom/starter
 
 const PAUSE = 600; // ms after the last key, then it is compiled
-const LONGEST = 60000; // ms for compiling, as in tests/classroom/grade.c
+const LONGEST = 30000; // ms for compiling: some lines of C can keep a compiler busy for ever
 
-/* global MEGABYTES */
+/* global MEGABYTES */ // what the compiler weighs: put here by build-edit.sh
 
 // ---- what the reader has typed is kept ----------------------------------------------------------
 
@@ -39,7 +39,13 @@ function keep(routine, code) {
 
 // ---- the compiler's worker: one for all editors of a page -----------------------------------------
 
-let worker, listener, ready = false, loaded = 0;
+let worker, listener, patience, ready = false;
+
+function end() {
+    worker?.terminate();
+    worker = undefined;
+    ready = false;
+}
 
 // listen(answer) gets what comes, until somebody asks anew.
 function ask(folder, question, listen) {
@@ -49,18 +55,17 @@ function ask(folder, question, listen) {
         worker = new Worker(`${folder}edit-worker.js`, { type: 'module' });
         worker.onmessage = ({ data }) => {
             ready ||= Boolean(data.ready);
-            loaded = data.loaded ?? loaded;
+            clearTimeout(patience);
+            if (data.begun)
+                patience = setTimeout(() => {
+                    end();
+                    listener({ broken: `does not compile: no end within ${LONGEST / 1000} seconds` });
+                }, LONGEST);
             listener(data);
         };
         worker.onerror = event => listener({ broken: `The compiler stopped: ${event.message}` });
     }
     worker.postMessage(question);
-}
-
-function end() {
-    worker?.terminate();
-    worker = undefined;
-    ready = false;
 }
 
 // ---- one editor -----------------------------------------------------------------------------------
@@ -79,7 +84,7 @@ const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
 self.rtEditor = (div, folder) => {
     const routines = div.dataset.routines.split(/\s+/).filter(name => starters[name]);
     const live = document.getElementById(div.dataset.live ?? '');
-    let routine = routines[0], timer, patience;
+    let routine = routines[0], timer;
 
     const mine = () => `my_${routine.slice(3)}.c`;
     const choice = element('select', {}, ...routines.map(name => element('option', {}, name)));
@@ -154,23 +159,10 @@ self.rtEditor = (div, folder) => {
 
     function attempt() {
         clearTimeout(timer);
-        clearTimeout(patience);
         const name = mine();
         ask(folder, { code: code(), name }, data => answered(data, name));
         status.textContent = ready ? 'compiling ...' : 'the compiler comes ...';
-        if (ready)
-            wait();
         return true; // the key is used
-    }
-
-    // Some lines of C can keep a compiler busy for ever.
-    function wait() {
-        patience = setTimeout(() => {
-            end();
-            clear();
-            status.textContent = `${mine()}: does not compile: no end within ` +
-                `${LONGEST / 1000} seconds`;
-        }, LONGEST);
     }
 
     function clear() {
@@ -182,19 +174,17 @@ self.rtEditor = (div, folder) => {
 
     function answered(data, name) {
         if (data.loaded) {
-            status.textContent = `the compiler comes: ${(loaded / 1e6).toFixed(0)} of ` +
-                `${MEGABYTES} MB`;
-        } else if (data.ready) {
+            status.textContent = `the compiler comes: ${(data.loaded / 1e6).toFixed(0)} of ` +
+                `${MEGABYTES} MB ...`;
+        } else if (data.ready || data.begun) {
             status.textContent = 'compiling ...';
-            wait();
         } else if (data.dropped) {
-            clearTimeout(patience);
             status.textContent = '';
         } else if (data.broken) {
             end();
+            clear();
             status.textContent = data.broken;
         } else {
-            clearTimeout(patience);
             clear();
             list(data.list);
             const seconds = `compiled in ${(data.times.compile / 1000).toFixed(1)} s`;
