@@ -10,6 +10,9 @@
 # libclang-rt-14-dev-wasm32). The packages of npm come to EDIT_PACKAGES (build/web), once.
 set -e
 [ $# = 1 ] || { sed -n '2,11s/^# //p' "$0" >&2; exit 2; }
+for tool in node npm clang wasm-ld; do
+    command -v $tool >/dev/null || { echo "build-edit.sh: $tool is missing" >&2; exit 1; }
+done
 folder=$1
 here=docs/live
 packages=${EDIT_PACKAGES:-${BUILD:-build}/web}
@@ -69,8 +72,10 @@ for (const name of process.argv.slice(2))
 console.log(JSON.stringify(all))' "$work/starters" $names >"$work/starters.json"
 bundle() {
     NODE_PATH=$packages/node_modules "$packages/node_modules/.bin/esbuild" "$@" --bundle --minify \
-        --log-level=warning --target=es2022 --external:node:* "--define:MEGABYTES=$megabytes" \
-        "--define:VERSION=\"$version\"" "--alias:starters=./$work/starters.json" --outdir="$folder"
+        --target=es2022 --external:node:* --outdir="$folder" --log-level=warning \
+        --legal-comments=none "--banner:js=/* licences: licences.txt */" \
+        "--define:MEGABYTES=$megabytes" "--define:VERSION=\"$version\"" \
+        "--alias:starters=./$work/starters.json"
 }
 bundle $here/edit.js $here/editor.js $here/edit-run.js --format=iife
 bundle $here/edit-worker.js --format=esm

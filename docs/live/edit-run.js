@@ -10,11 +10,14 @@ let module;
 function reason(error) {
     if (error instanceof Ended)
         return error.message;
-    if (/call stack|recursion/.test(error.message))
+    const words = error.message; // each browser has its own
+    if (/call stack|recursion/i.test(words))
         return 'it crashed: the stack is full (a function that calls itself, without an end?)';
-    if (/unreachable/.test(error.message))
+    if (/out of bounds/i.test(words))
+        return 'it crashed: it read or wrote outside of its memory';
+    if (/unreachable/i.test(words))
         return 'it crashed: it came to where it must not be (NULL, abort, assert, no return)';
-    return `it crashed: ${error.message}`;
+    return `it crashed: ${words}`;
 }
 
 function ask({ routine, count, ins, outs, inputs }) {

@@ -112,14 +112,15 @@ function messages(said, name) {
     for (const line of said.split('\n')) {
         const at = /^(.+?):(\d+):(\d+): (?:fatal )?(error|warning|note): (.*)$/.exec(line);
         const bare = /^(?:(?:clang|wasm-ld): )?(error|warning): (?:\S+\.o: )?(.*)$/.exec(line);
-        if (at)
+        if (at) {
+            const file = at[1].replace(/^\.\//, ''), own = file === name;
             list.push({
-                file: at[1].replace(/^\.\//, ''), line: at[1].endsWith(name) ? +at[2] : 0,
-                column: +at[3], kind: at[4],
-                text: at[1].endsWith(name) ? at[5] : `${at[1]}, line ${at[2]}: ${at[5]}`,
+                file, line: own ? +at[2] : 0, column: +at[3], kind: at[4],
+                text: own ? at[5] : `${file}, line ${at[2]}: ${at[5]}`,
             });
-        else if (bare)
+        } else if (bare) {
             list.push({ file: '', line: 0, column: 0, kind: bare[1], text: bare[2] });
+        }
     }
     return list;
 }
@@ -253,7 +254,7 @@ onmessage = async ({ data: { code, name } }) => {
     const times = { compile: compiled - from };
     if (!bytes)
         return postMessage({ said, list, times });
-    const names = WebAssembly.Module.exports(await WebAssembly.compile(bytes))
+    const names = WebAssembly.Module.exports(new WebAssembly.Module(bytes))
         .map(({ name }) => name).filter(name => name.startsWith('answer_'))
         .map(name => name.slice(7));
     if (names.length === 0)

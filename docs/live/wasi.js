@@ -1,5 +1,7 @@
 // The system that a WebAssembly module of C meets here: it may compute, ask for the time and
 // print. For files, other programs and the network it is ended, as in tests/classroom/sandbox.h.
+// What the C library does not have here (fork, kill, getppid, signal.h) does not compile; the
+// marks are the same.
 
 export class Ended extends Error {} // the message says why
 

@@ -50,3 +50,11 @@ __attribute__((export_name("pupil_inputs"))) float *pupil_inputs(int ins, int ou
 OR_CRASH(malloc, (size_t size), (size))
 OR_CRASH(calloc, (size_t count, size_t size), (count, size))
 OR_CRASH(realloc, (void *old, size_t size), (old, size))
+
+/* As natively, the student's file may have no main; define PUPIL_HAS_MAIN if yours has. */
+#ifndef PUPIL_HAS_MAIN
+__attribute__((weak)) int main(void)
+{
+    return 0;
+}
+#endif

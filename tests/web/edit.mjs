@@ -27,6 +27,11 @@ if (!browserPath) {
     console.log('note: chromium is missing (Debian: apt-get install chromium): pages not tested');
     process.exit(0);
 }
+for (const tool of ['npm', 'clang', 'wasm-ld'])
+    if (spawnSync(tool, ['--version']).error) {
+        console.log(`note: ${tool} is missing: pages not tested`);
+        process.exit(0);
+    }
 execFileSync('docs/live/build-edit.sh', [folder], { stdio: 'inherit' });
 const packages = createRequire(resolve(`${build}/web/package.json`));
 const puppeteer = packages('puppeteer-core');
@@ -87,7 +92,9 @@ async function open(routines = 'rt_hit_sphere rt_camera_ray', width = 1100, cont
 const text = (page, selector) => page.$eval(selector, element => element.textContent);
 const finished = page => page.waitForFunction(() =>
     /^(?!.*\.\.\.$)./.test(document.querySelector('.edit-status')?.textContent ?? ''),
-{ timeout: 120000, polling: 20 });
+{ timeout: 60000, polling: 20 }).catch(async error => {
+    throw new Error(`${error.message}; it says: ${await text(page, '.edit')}`);
+});
 
 async function press(page, label) {
     const buttons = await page.$$('.edit button');
@@ -261,6 +268,8 @@ test('a mistake is marked in its line', async () => {
     said = await attempt(page, '#include "rt.h"\n#define rt_hit_sphere my_hit_sphere\n' +
         right.split('\n').slice(2).join('\n'));
     assert.match(said.status, /#define rt_\.\.\. must come before #include "rt\.h"/);
+    said = await attempt(page, `${right}int main(void) { return 0; }\n`);
+    assert.match(said.list.join('\n'), /^tests\/classroom\/pupil_page\.c, line \d+: redefinition of 'main'/m);
     said = await attempt(page, right.replace('return true;', 'int unused; return true;'));
     assert.match(said.list[0], /warning: unused variable/); // and a verdict
     assert.match(said.verdict, /all right/);
@@ -278,7 +287,7 @@ test('what goes wrong while it runs', async () => {
     assert.ok(performance.now() - from < 8000);
     const events = await page.evaluate(() => window.events.length);
     said = await attempt(page, submission('finn.c'));
-    assert.match(said.verdict, /WRONG {2}unit vectors: it crashed: memory access out of bounds/);
+    assert.match(said.verdict, /WRONG {2}unit vectors: it crashed: it read or wrote outside/);
     said = await attempt(page, reflect('return my_reflect(my_reflect(normal, incident), normal);',
         'static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal);'));
     assert.match(said.verdict, /it crashed: the stack is full/);
@@ -307,6 +316,30 @@ test('what goes wrong while it runs', async () => {
     assert.match(said.verdict, /it crashed/);
     said = await attempt(page, reflect('').replace('2 *', '2.0f *'));
     assert.match(said.verdict, /all right: 2 of 2/); // it still lives
+    await page.close();
+});
+
+test('each routine, as rt.h has it, is all right', async () => {
+    const rt = readFileSync('rt.h', 'utf8');
+    const names = [...rt.matchAll(/^#ifndef (rt_[a-z_]+)$/gm)].map(match => match[1]);
+    const page = await open(names.join(' '));
+    await begin(page);
+    const slow = [];
+    for (const name of names) {
+        await page.select('.edit select', name);
+        await finished(page);
+        const own = new RegExp(`^static inline [^;{}]*[ *]${name}\\([^;{}]*\\{$[^]*?^\\}`, 'm').exec(rt)[0];
+        const from = performance.now();
+        const said = await attempt(page, name === 'rt_hit_sphere' ? right // rt.h's has two halves
+            : `#define ${name} my_${name.slice(3)}\n#include "rt.h"\n\n` +
+                own.replace(`${name}(`, `my_${name.slice(3)}(`));
+        assert.match(said.verdict, /^all right: (\d+) of \1 kinds/m, `${name}: ${JSON.stringify(said)}`);
+        slow.push([performance.now() - from, name]);
+        await press(page, 'as at first');
+    }
+    slow.sort(([a], [b]) => b - a);
+    console.log(`  ${names.length} routines; from paste to verdict, ms: ` +
+        `${slow.map(([ms, name]) => `${name} ${ms.toFixed(0)}`).join(', ')}`);
     await page.close();
 });
 
@@ -416,6 +449,8 @@ test('the marks of make grade', async () => {
 });
 
 test('for everybody: axe-core, light and dark, narrow and wide', async () => {
+    if (other)
+        return console.log(`  not with ${other}: it cannot be told which colours`);
     for (const scheme of ['light', 'dark'])
         for (const width of [360, 1100]) {
             const page = await open('rt_hit_sphere rt_camera_ray', width);
