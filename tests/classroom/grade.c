@@ -1,5 +1,5 @@
 /* Marks students' routines: compiles each file with pupil.c, asks the program, in a sandbox, what
- * cases.h has to ask, and compares with rt.h. "make try" and "make grade" call it.
+ * cases.h has to ask, and lets judge.h compare with rt.h. "make try" and "make grade" call it.
  *
  *     grade [--seed N] [--only NAME,NAME...] [--csv FILE] [--try] PATH
  *
@@ -9,10 +9,9 @@
  * 3 if it crashes or does not end; 2 wrong use, or nothing could be marked. */
 #define _GNU_SOURCE
 #include <dirent.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
-#include "cases.h"
+#include "judge.h"
 #include "sandbox.h"
 
 #ifdef __linux__
@@ -38,40 +37,6 @@ typedef struct marks {
 
 /* ---- one routine ------------------------------------------------------------------------- */
 
-static void print_fields(const field *fields, const float *v)
-{
-    for (int i = 0; i < MAX_FIELDS && fields[i].name; i++) {
-        printf(i == 0 ? "%s " : ", %s ", fields[i].name);
-        for (int k = 0; k < fields[i].size; k++)
-            printf("%s%.9g", k > 0 ? " " : "", (double)*v++);
-    }
-    printf("\n");
-}
-
-static bool close_enough(const float *actual, const float *expected, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (!(fabsf(actual[i] - expected[i]) <= 1e-4f * (1.0f + fabsf(expected[i]))))
-            return false;
-    return true;
-}
-
-/* The names of the fields that are wrong. */
-static void print_differences(const field *fields, const float *actual,
-                              const float *expected)
-{
-    const char *before = "         wrong: ";
-    for (int i = 0; i < MAX_FIELDS && fields[i].name; i++) {
-        if (!close_enough(actual, expected, fields[i].size)) {
-            printf("%s%s", before, fields[i].name);
-            before = ", ";
-        }
-        actual += fields[i].size;
-        expected += fields[i].size;
-    }
-    printf("\n");
-}
-
 /* Is this routine to be marked? */
 static bool wanted(const char *name)
 {
@@ -87,77 +52,29 @@ static bool wanted(const char *name)
     return false;
 }
 
-/* What became of a kind of input. Where one answer is right for all inputs (every ray misses),
- * a routine that does nothing may know it, and that is no merit by itself. */
-typedef enum verdict { WRONG, CRASHED, NO_END, RIGHT, RIGHT_BY_DOING_NOTHING } verdict;
-
 /* Ask the program all inputs of a kind, and tell what is wrong with the first bad answer. */
-static verdict ask(const char *program, const routine *r, const kind *q, const char *who,
-                   bool tell)
+static verdict ask(const char *program, int number, const char *who, bool tell)
 {
-    const int count = q->count ? q->count : CASES;
-    const int ins = field_count(r->in), outs = field_count(r->out);
-    float *in = calloc((size_t)(count * ins), sizeof *in);
-    float *out = calloc((size_t)(count * outs), sizeof *out);
-    char why[200], number[20];
-    uint32_t state = first_state = rt_hash(options.seed + rt_hash((uint32_t)(q - kinds)));
-    if (!in || !out)
+    question q;
+    char why[200], count[20];
+    if (!make_question(&q, number, options.seed))
         return fprintf(stderr, "grade: not enough memory\n"), exit(2), WRONG;
-    for (int k = 0; k < count; k++)
-        q->make(in + k * ins, k, &state);
-    snprintf(number, sizeof number, "%d", count);
-    char *const argv[] = {(char *)program, (char *)r->name, number, NULL};
+    snprintf(count, sizeof count, "%d", q.count);
+    char *const argv[] = {(char *)program, (char *)q.routine->name, count, NULL};
     const task t = {.argv = argv,
                     .confined = true,
                     .talks = options.trying,
                     .seconds = 3,
-                    .in = (const char *)in,
-                    .in_size = (size_t)(count * ins) * sizeof *in,
-                    .out = (char *)out,
-                    .out_size = (size_t)(count * outs) * sizeof *out};
+                    .in = (const char *)q.in,
+                    .in_size = (size_t)(q.count * q.ins) * sizeof *q.in,
+                    .out = (char *)q.out,
+                    .out_size = (size_t)(q.count * q.outs) * sizeof *q.out};
     fflush(stdout);
     const bool ended = run_task(&t, why, sizeof why);
-    int wrong = ended ? count : -1;
-    float expected[MAX_OUT], first[MAX_OUT];
-    bool same = !q->judge || q->judge == judge_again || q->judge == judge_side;
-    if (wrong == count && q->judge)
-        wrong = q->judge(in, out, count, why, sizeof why);
-    else if (wrong == count)
-        for (wrong = 0; wrong < count; wrong++) {
-            r->call(in + wrong * ins, expected);
-            if (wrong == 0)
-                memcpy(first, expected, sizeof first);
-            same = same && memcmp(first, expected, (size_t)outs * sizeof *first) == 0;
-            if (!close_enough(out + wrong * outs, expected, outs))
-                break;
-        }
-    const bool good = wrong == count;
-    if (options.trying && good)
-        printf("  good   %s\n", q->what);
-    if (!good && options.trying)
-        printf("  WRONG  %s%s%s\n", q->what, *why ? ": " : "", why);
-    else if (!good && tell)
-        printf("%s: %s: %s%s%s\n", who, r->name, q->what, *why ? ": " : "", why);
-    if (!good && wrong >= 0 && tell) {
-        r->call(in + wrong * ins, expected);
-        printf("         input %d of %d: ", wrong + 1, count);
-        print_fields(r->in, in + wrong * ins);
-        printf("         yours: ");
-        print_fields(r->out, out + wrong * outs);
-        if (!q->judge || q->judge == judge_encode) {
-            printf("         right: ");
-            print_fields(r->out, expected);
-            if (!q->judge)
-                print_differences(r->out, out + wrong * outs, expected);
-        }
-    }
-    free(in);
-    free(out);
-    if (!good && !ended)
-        return strncmp(why, "no end", 6) == 0 ? NO_END : CRASHED;
-    if (!good)
-        return WRONG;
-    return same ? RIGHT_BY_DOING_NOTHING : RIGHT;
+    const verdict v =
+        judge(&q, ended, why, sizeof why, options.trying ? NULL : who, tell);
+    forget(&q);
+    return v;
 }
 
 /* ---- one submission ---------------------------------------------------------------------- */
@@ -309,8 +226,7 @@ static void mark_file(const char *path, const char *who, marks *m)
         int right = 0, by_doing_nothing = 0, wrong = 0;
         for (int k = 0; k < KINDS; k++)
             if (strcmp(kinds[k].routine, routines[i].name) == 0) {
-                const verdict v = ask(program, &routines[i], &kinds[k], who,
-                                      options.trying || wrong == 0);
+                const verdict v = ask(program, k, who, wrong == 0);
                 wrong += v == WRONG || v == CRASHED || v == NO_END;
                 m->dangerous = m->dangerous || v == CRASHED || v == NO_END;
                 if (v == NO_END)
@@ -318,8 +234,7 @@ static void mark_file(const char *path, const char *who, marks *m)
                 right += v == RIGHT;
                 by_doing_nothing += v == RIGHT_BY_DOING_NOTHING;
             }
-        if (right > 0)
-            m->good[routines[i].chapter] += right + by_doing_nothing;
+        m->good[routines[i].chapter] += marks_for(right, by_doing_nothing);
     }
 }
 

@@ -1,0 +1,57 @@
+// "Write it yourself": fills each <div class="edit" data-routines="rt_hit_sphere rt_camera_ray"
+// data-live="live-demo01">. What is heavy, the editor and the compiler, comes when it is wanted.
+/* global MEGABYTES */ // how much that is, put here by build-edit.sh
+
+const folder = new URL('.', document.currentScript.src).href;
+const enough = self.Worker && self.WebAssembly && self.DecompressionStream;
+
+function element(name, properties, ...children) {
+    const made = Object.assign(document.createElement(name), properties);
+    made.append(...children);
+    return made;
+}
+
+// The editor is a script of its own; one for all that are on the page.
+let script;
+function load() {
+    script ??= new Promise((resolve, reject) => {
+        document.head.append(element('script', {
+            src: `${folder}editor.js`, onload: resolve, onerror: reject,
+        }));
+    });
+    return script;
+}
+
+function begin(div) {
+    const note = element('span', { className: 'edit-note' });
+    const button = element('button', { type: 'button', textContent: 'Write it yourself, here' });
+    note.setAttribute('role', 'status');
+    if (location.protocol === 'file:') {
+        div.append(element('p', {}, 'To write it in this page, a server is needed: ',
+            element('code', { textContent: 'python3 -m http.server -d build/site' }), '.'));
+        return;
+    }
+    if (!enough) {
+        div.append(element('p', {}, 'To write it in this page, a newer browser is needed.'));
+        return;
+    }
+    note.textContent = `fetches a C compiler once, ${MEGABYTES} MB`;
+    button.addEventListener('click', async () => {
+        button.disabled = true;
+        note.textContent = 'the editor comes ...';
+        try {
+            await load();
+            div.replaceChildren();
+            self.rtEditor(div, folder);
+        } catch {
+            script = undefined;
+            button.disabled = false;
+            note.textContent = 'The editor did not come: is the server still there?';
+        }
+    });
+    div.append(element('p', {}, button, ' ', note));
+}
+
+document.head.append(element('link', { rel: 'stylesheet', href: `${folder}edit.css` }));
+for (const div of document.querySelectorAll('div.edit'))
+    begin(div);

@@ -1,0 +1,508 @@
+// "Write it yourself" in the pages of the site, in a real browser: node tests/web/edit.mjs
+// [--pictures FOLDER] [NAME...]: all tests, or those whose names contain a NAME. To be run at the
+// top of the repository; it needs chromium and the packages of docs/live/package.json, and makes
+// what it tests with docs/live/build-edit.sh. No network.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import {
+    existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync,
+} from 'node:fs';
+import { createServer } from 'node:http';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { extname, join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const build = process.env.BUILD ?? 'build';
+const folder = `${build}/web/edit`;
+const words = process.argv.slice(2);
+const pictures = words[0] === '--pictures' ? words.splice(0, 2)[1] : undefined;
+
+// Another browser: BROWSER=firefox, if it is there; what is kept is not tested there.
+const other = process.env.BROWSER;
+const browserPath = (process.env.PATH ?? '').split(':')
+    .flatMap(path => (other ? [other] : ['chromium', 'chromium-browser', 'google-chrome']).map(name => join(path, name)))
+    .find(existsSync);
+if (!browserPath) {
+    console.log('note: chromium is missing (Debian: apt-get install chromium): pages not tested');
+    process.exit(0);
+}
+for (const tool of ['npm', 'clang', 'wasm-ld'])
+    if (spawnSync(tool, ['--version']).error) {
+        console.log(`note: ${tool} is missing: pages not tested`);
+        process.exit(0);
+    }
+execFileSync('docs/live/build-edit.sh', [folder], { stdio: 'inherit' });
+const packages = createRequire(resolve(`${build}/web/package.json`));
+const puppeteer = packages('puppeteer-core');
+const axe = readFileSync(packages.resolve('axe-core/axe.min.js'), 'utf8');
+
+// ---- a page, a server, a browser ------------------------------------------------------------
+
+const html = (routines, base) => `<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width"><title>Test</title>
+<link rel="icon" href="data:,"><link rel="stylesheet" href="${base}site.css">
+<script defer src="${base}edit/edit.js"></script></head>
+<body><main><h1>A sphere</h1><figure class="live" id="live-demo01"></figure>
+<div class="edit" data-routines="${routines}" data-live="live-demo01"></div></main></body></html>`;
+const kinds = { '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.json': 'application/json' };
+let missing = /^$/; // what the server does not have
+let fetched = []; // paths, and how many bytes
+const server = createServer((request, response) => {
+    const url = new URL(request.url, 'http://localhost');
+    if (url.pathname === '/') {
+        response.setHeader('content-type', 'text/html');
+        return response.end(html(url.searchParams.get('routines'), ''));
+    }
+    const path = url.pathname === '/site.css' ? 'docs/site.css' : join(folder, url.pathname.replace('/edit/', ''));
+    if (!existsSync(path) || missing.test(path)) {
+        response.statusCode = 404;
+        return response.end();
+    }
+    fetched.push([url.pathname, statSync(path).size]);
+    response.setHeader('content-type', kinds[extname(path)] ?? 'application/octet-stream');
+    response.end(readFileSync(path));
+});
+await new Promise(ready => server.listen(0, '127.0.0.1', ready));
+const top = `http://localhost:${server.address().port}/`;
+const profile = mkdtempSync(join(tmpdir(), 'rt-edit-'));
+const browser = await puppeteer.launch({
+    executablePath: browserPath, headless: true, userDataDir: profile, browser: other ?? 'chrome',
+    args: process.getuid?.() === 0 ? ['--no-sandbox'] : [],
+});
+
+const errors = [], foreign = [];
+async function open(routines = 'rt_hit_sphere rt_camera_ray', width = 1100, context = browser) {
+    const page = await context.newPage();
+    await page.setViewport({ width, height: 900 });
+    page.on('pageerror', error => errors.push(error.message));
+    page.on('console', message => message.type() === 'error' && errors.push(message.text()));
+    page.on('request', request => /^(data|blob):/.test(request.url()) ||
+        request.url().startsWith(top) || foreign.push(request.url()));
+    await page.goto(`${top}?routines=${encodeURIComponent(routines)}`);
+    await page.evaluate(() => {
+        window.events = [];
+        document.getElementById('live-demo01').addEventListener('mine', event =>
+            window.events.push([event.detail.routine, event.detail.bytes.length,
+                WebAssembly.validate(event.detail.bytes)]));
+    });
+    return page;
+}
+
+const text = (page, selector) => page.$eval(selector, element => element.textContent);
+const finished = page => page.waitForFunction(() =>
+    /^(?!.*\.\.\.$)./.test(document.querySelector('.edit-status')?.textContent ?? ''),
+{ timeout: 60000, polling: 20 }).catch(async error => {
+    throw new Error(`${error.message}; it says: ${await text(page, '.edit')}`);
+});
+
+async function press(page, label) {
+    const buttons = await page.$$('.edit button');
+    for (const button of buttons)
+        if ((await button.evaluate(element => element.textContent)).startsWith(label))
+            return button.click();
+    throw new Error(`no button ${label}`);
+}
+
+async function begin(page) {
+    await press(page, 'Write it yourself');
+    await page.waitForSelector('.cm-content');
+    await finished(page);
+}
+
+// As a reader would paste it.
+async function paste(page, code) {
+    await page.focus('.cm-content');
+    await page.keyboard.down('Control');
+    await page.keyboard.press('a');
+    await page.keyboard.up('Control');
+    await page.$eval('.cm-content', (element, code) => {
+        const clipboardData = new DataTransfer();
+        clipboardData.setData('text/plain', code);
+        const event = new Event('paste', { bubbles: true, cancelable: true });
+        element.dispatchEvent(Object.defineProperty(event, 'clipboardData', { value: clipboardData }));
+    }, code);
+}
+
+// What the page says of a text: { status, verdict, list, printed }.
+async function attempt(page, code) {
+    if (code !== '')
+        await paste(page, code);
+    else
+        await page.focus('.cm-content'), await page.keyboard.down('Control'), await page.keyboard.press('a'),
+        await page.keyboard.up('Control'), await page.keyboard.press('Backspace');
+    await press(page, 'compile and try');
+    await finished(page);
+    return {
+        status: await text(page, '.edit-status'), verdict: await text(page, '.edit-verdict'),
+        list: await page.$$eval('.edit-list li', list => list.map(item => item.textContent)),
+        printed: await page.$eval('.edit-printed', element =>
+            element.parentElement.hidden ? '' : element.textContent),
+    };
+}
+
+// What "save" would put into a file of this name.
+async function saved(page, name) {
+    await page.evaluate(() => {
+        URL.createObjectURL = blob => { window.saved = blob.text(); return 'data:,'; };
+        HTMLAnchorElement.prototype.click = function () { window.savedAs = this.download; };
+    });
+    await press(page, `save ${name}`);
+    assert.equal(await page.evaluate(() => window.savedAs), name);
+    return page.evaluate(() => window.saved);
+}
+
+// ---- texts to try -----------------------------------------------------------------------------
+
+const submission = name => readFileSync(`tests/classroom/submissions/${name}`, 'utf8');
+const demo = readFileSync('demos/demo01_sphere.c', 'utf8');
+const copied = `#define rt_hit_sphere my_hit_sphere\n#include "rt.h"\n` +
+    /static bool hit_sphere[^]*?\n}\n/.exec(demo)[0].replace('hit_sphere', 'my_hit_sphere');
+const right = copied.replace('discriminant < 0.0', '!(discriminant >= 0.0)')
+    .replace('t <= 0.0 || (float)t >= t_max', '!(t > 0.0 && (float)t < t_max)');
+const reflect = (body, before = '') => `#define rt_reflect my_reflect
+#include "rt.h"
+${before}
+static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal)
+{
+    ${body}
+    return rt_sub(incident, rt_scale(normal, 2 * rt_dot(normal, incident)));
+}
+`;
+
+// ---- the tests --------------------------------------------------------------------------------
+
+const tests = [];
+const test = (name, act) => tests.push([name, act]);
+
+test('file: a server is needed', async () => {
+    const page = await browser.newPage();
+    writeFileSync(`${folder}/../test.html`, html('rt_hit_sphere', ''));
+    await page.goto(pathToFileURL(resolve(`${folder}/../test.html`)).href);
+    assert.match(await text(page, '.edit'), /a server is needed: python3 -m http\.server/);
+    rmSync(`${folder}/../test.html`);
+    await page.close();
+});
+
+test('first: what is fetched, and when', async () => {
+    fetched = [];
+    const page = await open();
+    assert.deepEqual(fetched.map(([path]) => path), ['/site.css', '/edit/edit.js', '/edit/edit.css']);
+    assert.match(await text(page, '.edit'), /fetches a C compiler once, 23 MB/);
+    const from = performance.now();
+    await begin(page);
+    const sum = fetched.reduce((sum, [, size]) => sum + size, 0);
+    console.log(`  ${(sum / 1e6).toFixed(1)} MB, first compile and verdict after ` +
+        `${((performance.now() - from) / 1000).toFixed(1)} s: ${await text(page, '.edit-status')}`);
+    assert.match(await text(page, '.edit-verdict'), /WRONG {2}hits from outside/); // the starter
+    await page.waitForFunction(async () => (await Promise.all((await caches.keys())
+        .map(async key => (await (await caches.open(key)).keys()).length))).join() === '5');
+    await page.close();
+    fetched = [];
+    const again = await open();
+    await begin(again);
+    assert.deepEqual(fetched.filter(([path]) => /\.bin/.test(path)), [], 'kept by the browser');
+    await again.close();
+});
+
+test('the server ends meanwhile', async () => {
+    const context = await browser.createBrowserContext(); // where nothing is kept
+    const page = await open(undefined, undefined, context);
+    missing = /editor\.js/;
+    await press(page, 'Write it yourself');
+    await page.waitForFunction(() => /The editor did not come/.test(document.body.textContent));
+    missing = /clang\.bin/;
+    await begin(page);
+    assert.match(await text(page, '.edit-status'), /The compiler did not come: clang\.bin: .* 404/);
+    missing = /^$/;
+    await press(page, 'compile and try');
+    await finished(page);
+    assert.match(await text(page, '.edit-status'), /0 of 8 right/);
+    assert.ok(errors.splice(0).every(error => /404/.test(error)));
+    await context.close();
+});
+
+test('right and wrong answers', async () => {
+    const page = await open();
+    await begin(page);
+    let said = await attempt(page, copied);
+    assert.match(said.verdict, /7 of 8 kinds of input right/);
+    assert.match(said.verdict, /WRONG {2}no direction, NaN, infinity\n +input \d+ of 200: center .*\n +yours: hit .*\n +right: hit 0/);
+    assert.match(said.status, /7 of 8 right/);
+    said = await attempt(page, right);
+    assert.match(said.verdict, /all right: 8 of 8/);
+    const events = await page.evaluate(() => window.events);
+    assert.deepEqual(events.at(-1)[0], 'rt_hit_sphere');
+    assert.ok(events.at(-1)[1] > 1000 && events.at(-1)[2]);
+    const times = [];
+    for (let i = 0; i < (words.includes('soak') ? 100 : 5); i++) {
+        const from = performance.now();
+        await attempt(page, `${right}/* ${i} */\n`);
+        times.push(performance.now() - from);
+    }
+    times.sort((a, b) => a - b);
+    console.log(`  later, from paste to verdict: ${times[0].toFixed(0)} to ${times.at(-1).toFixed(0)} ms, ` +
+        `mostly ${times[times.length >> 1].toFixed(0)}; ${await text(page, '.edit-status')}`);
+    await page.close();
+});
+
+test('a mistake is marked in its line', async () => {
+    const page = await open();
+    await begin(page);
+    let said = await attempt(page, right.replace('return true;', 'return true'));
+    const line = right.split('\n').findIndex(line => /return true;/.test(line)) + 1;
+    assert.match(said.status, /my_hit_sphere\.c: does not compile/);
+    assert.match(said.list[0], new RegExp(`line ${line} expected ';' after return statement`));
+    await page.waitForSelector('.cm-lint-marker-error');
+    await page.waitForSelector('.cm-lintRange-error');
+    assert.equal(said.verdict, '');
+    said = await attempt(page, right.replace('#include "rt.h"', '#include "rt.h"\n#include "mine.h"'));
+    assert.deepEqual(said.list, ["line 3 'mine.h' file not found"]);
+    said = await attempt(page, right.replace('return true;', 'return far_away(t);')
+        .replace('#include "rt.h"', '#include "rt.h"\nbool far_away(double t);'));
+    assert.match(said.list[0], /undefined symbol: far_away/);
+    said = await attempt(page, '');
+    assert.match(said.status, /my_hit_sphere\.c: empty/);
+    said = await attempt(page, 'int x;\n');
+    assert.match(said.status, /replaces nothing: there is no line like #define/);
+    said = await attempt(page, '#include "rt.h"\n#define rt_hit_sphere my_hit_sphere\n' +
+        right.split('\n').slice(2).join('\n'));
+    assert.match(said.status, /#define rt_\.\.\. must come before #include "rt\.h"/);
+    said = await attempt(page, `${right}int main(void) { return 0; }\n`);
+    assert.match(said.list.join('\n'), /^tests\/classroom\/pupil_page\.c, line \d+: redefinition of 'main'/m);
+    said = await attempt(page, right.replace('return true;', 'int unused; return true;'));
+    assert.match(said.list[0], /warning: unused variable/); // and a verdict
+    assert.match(said.verdict, /all right/);
+    said = await attempt(page, `${right}/* ${'x'.repeat(1 << 20)} */`);
+    assert.match(said.status, /larger than a megabyte/);
+    await page.close();
+});
+
+test('what goes wrong while it runs', async () => {
+    const page = await open('rt_reflect');
+    await begin(page);
+    const from = performance.now();
+    let said = await attempt(page, submission('eva.c'));
+    assert.match(said.verdict, /WRONG {2}unit vectors: no end within 3 seconds\n0 of 2/);
+    assert.ok(performance.now() - from < 8000);
+    const events = await page.evaluate(() => window.events.length);
+    said = await attempt(page, submission('finn.c'));
+    assert.match(said.verdict, /WRONG {2}unit vectors: it crashed: it read or wrote outside/);
+    said = await attempt(page, reflect('return my_reflect(my_reflect(normal, incident), normal);',
+        'static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal);'));
+    assert.match(said.verdict, /it crashed: the stack is full/);
+    assert.match(said.verdict, /no picture: it would crash, or never end/);
+    assert.equal(await page.evaluate(() => window.events.length), events); // no picture
+    said = await attempt(page, submission('kim.c'));
+    assert.match(said.verdict, /yours: reflected nan nan nan/);
+    said = await attempt(page, submission('jon.c'));
+    assert.match(said.verdict, /all right: 2 of 2/);
+    assert.match(said.printed, /^0: I am reflecting [^]*and \d{8} bytes more$/);
+    assert.ok(said.printed.length < 4200);
+    said = await attempt(page, reflect('for (;;) puts("again");', '#include <stdio.h>'));
+    assert.match(said.verdict, /no end within 3 seconds/);
+    assert.match(said.printed, /^again\nagain/);
+    said = await attempt(page, reflect('char *volatile much = malloc(3000000000u); memset(much, 1, 3000000000u);',
+        '#include <stdlib.h>'));
+    assert.match(said.verdict, /0 of 2/);
+    said = await attempt(page, reflect('for (int i = 0; i < 1000; i++) { char *volatile some = malloc(1 << 20); memset(some, i, 1 << 20); }',
+        '#include <stdlib.h>'));
+    assert.match(said.verdict, /0 of 2/);
+    said = await attempt(page, reflect('static volatile char much[2000000000]; much[(int)normal.x] = 1;'));
+    assert.match(said.status, /does not compile: no end within 30 seconds/);
+    said = await attempt(page, reflect('abort();', '#include <stdlib.h>'));
+    assert.match(said.verdict, /it crashed: it came to where it must not be/);
+    said = await attempt(page, reflect('float *volatile p = 0; *p = 1;'));
+    assert.match(said.verdict, /it crashed/);
+    said = await attempt(page, reflect('').replace('2 *', '2.0f *'));
+    assert.match(said.verdict, /all right: 2 of 2/); // it still lives
+    await page.close();
+});
+
+test('each routine, as rt.h has it, is all right', async () => {
+    const rt = readFileSync('rt.h', 'utf8');
+    const names = [...rt.matchAll(/^#ifndef (rt_[a-z_]+)$/gm)].map(match => match[1]);
+    const page = await open(names.join(' '));
+    await begin(page);
+    const slow = [];
+    for (const name of names) {
+        await page.select('.edit select', name);
+        await finished(page);
+        const own = new RegExp(`^static inline [^;{}]*[ *]${name}\\([^;{}]*\\{$[^]*?^\\}`, 'm').exec(rt)[0];
+        const from = performance.now();
+        const said = await attempt(page, name === 'rt_hit_sphere' ? right // rt.h's has two halves
+            : `#define ${name} my_${name.slice(3)}\n#include "rt.h"\n\n` +
+                own.replace(`${name}(`, `my_${name.slice(3)}(`));
+        assert.match(said.verdict, /^all right: (\d+) of \1 kinds/m, `${name}: ${JSON.stringify(said)}`);
+        slow.push([performance.now() - from, name]);
+        await press(page, 'as at first');
+    }
+    slow.sort(([a], [b]) => b - a);
+    console.log(`  ${names.length} routines; from paste to verdict, ms: ` +
+        `${slow.map(([ms, name]) => `${name} ${ms.toFixed(0)}`).join(', ')}`);
+    await page.close();
+});
+
+test('the text is kept, saved and given back', async () => {
+    let page = await open();
+    await begin(page);
+    await press(page, 'as at first');
+    const starter = await saved(page, 'my_hit_sphere.c');
+    assert.match(starter, /My own rt_hit_sphere[^]*#define rt_hit_sphere my_hit_sphere/);
+    await attempt(page, right);
+    await page.close();
+    page = await open();
+    await begin(page);
+    assert.equal(await saved(page, 'my_hit_sphere.c'), right);
+    await page.select('.edit select', 'rt_camera_ray');
+    await finished(page);
+    assert.match(await saved(page, 'my_camera_ray.c'), /My own rt_camera_ray/);
+    assert.match(await text(page, '.edit-verdict'), /rt_camera_ray, chapter 1/);
+    await page.select('.edit select', 'rt_hit_sphere');
+    assert.equal(await saved(page, 'my_hit_sphere.c'), right);
+    await press(page, 'as at first');
+    assert.equal(await saved(page, 'my_hit_sphere.c'), starter);
+    await page.close();
+});
+
+test('by the keys alone', async () => {
+    const page = await open();
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.cm-content');
+    await finished(page);
+    const inside = () => page.evaluate(() => document.activeElement.matches('.cm-content'));
+    assert.ok(await inside());
+    await page.keyboard.press('Tab');
+    assert.ok(await inside()); // an indent
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Tab');
+    assert.ok(!await inside());
+    await paste(page, copied);
+    await page.keyboard.down('Control');
+    await page.keyboard.press('Enter');
+    await page.keyboard.up('Control');
+    assert.match(await text(page, '.edit-status'), /compiling/);
+    await finished(page);
+    assert.match(await text(page, '.edit-status'), /7 of 8/);
+    await page.keyboard.type('// by itself');
+    await page.waitForFunction(() => /compiling/.test(document.querySelector('.edit-status').textContent));
+    await finished(page);
+    await press(page, 'as at first');
+    await finished(page);
+    await page.close();
+});
+
+test('the marks of make grade', async () => {
+    const all = 'tests/classroom/submissions';
+    // The inputs depend on the compiler of grade.c, for the order in which a function's arguments
+    // are worked out does; so it is the one that made grade.wasm.
+    const native = spawnSync('tests/classroom/run', ['grade', all], {
+        env: { ...process.env, CC: 'clang', OUT: `${build}/web/marks.csv`, BUILD: `${build}/web` },
+        encoding: 'utf8',
+    });
+    assert.equal(native.status, 0, native.stdout + native.stderr);
+    const table = readFileSync(`${build}/web/marks.csv`, 'utf8').trim().split('\n').slice(1)
+        .map(line => line.split(','));
+    const work = mkdtempSync(join(tmpdir(), 'rt-edit-'));
+    const page = await open('rt_reflect');
+    await begin(page);
+    for (const [quoted, ...numbers] of table) {
+        const name = JSON.parse(quoted), path = join(all, name);
+        const files = statSync(path).isDirectory() ? readdirSync(path).sort().map(file => join(name, file)) : [name];
+        const good = Array(7).fill(0), count = Array(7).fill(0);
+        let compiles = true;
+        for (const file of files) {
+            const said = await attempt(page, submission(file));
+            const part = /^(rt_\w+), chapter (\d)\n(?:  [^]*?)^(?:all right: )?(\d+) of (\d+) kinds/gm;
+            compiles &&= said.verdict !== '';
+            for (const [, , chapter, marks, of] of said.verdict.matchAll(part)) {
+                good[chapter - 1] += +marks;
+                count[chapter - 1] += +of;
+            }
+            // line by line what "make try" says, but for why it came to no end
+            const tried = spawnSync(`${build}/web/classroom/grade`,
+                ['--folder', work, '--try', join(all, file)],
+                { encoding: 'utf8', maxBuffer: 1 << 27, env: { ...process.env, CC: 'clang' } });
+            const lines = text => text.split('\n').filter(line => /^ {2}/.test(line))
+                .map(line => line.replace(/: (it crashed|ended by the system|it ended by itself).*/, ': $1'));
+            if (said.verdict !== '' && !/does not compile/.test(tried.stdout))
+                assert.deepEqual(lines(said.verdict), lines(tried.stdout), file);
+            console.log(`  ${file}: ${said.status}`);
+        }
+        assert.deepEqual(good, numbers.filter((_, i) => i % 2 === 0).map(Number), name);
+        if (compiles)
+            assert.deepEqual(count, numbers.filter((_, i) => i % 2 === 1).map(Number), name);
+    }
+    await page.close();
+    // What the page saves is what "make try" takes.
+    const last = await open('rt_hit_sphere');
+    await begin(last);
+    await attempt(last, right);
+    writeFileSync(join(work, 'my_hit_sphere.c'), await saved(last, 'my_hit_sphere.c'));
+    const tried = spawnSync(`${build}/web/classroom/grade`,
+        ['--folder', work, '--try', join(work, 'my_hit_sphere.c')], { encoding: 'utf8' });
+    assert.match(tried.stdout, /\nall right\n$/);
+    await press(last, 'as at first');
+    await last.close();
+    rmSync(work, { recursive: true });
+});
+
+test('for everybody: axe-core, light and dark, narrow and wide', async () => {
+    if (other)
+        return console.log(`  not with ${other}: it cannot be told which colours`);
+    for (const scheme of ['light', 'dark'])
+        for (const width of [360, 1100]) {
+            const page = await open('rt_hit_sphere rt_camera_ray', width);
+            await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
+            await page.evaluate(axe);
+            const look = async what => {
+                await new Promise(ready => setTimeout(ready, 200));
+                if (pictures)
+                    await page.screenshot({ path: join(pictures, `${what}-${scheme}-${width}.png`), fullPage: true });
+                const found = await page.evaluate(() => window.axe.run());
+                assert.deepEqual(found.violations.map(v => `${v.id}: ${v.nodes.map(n => n.html).join(' ')}`), [], `${what} ${scheme} ${width}`);
+                const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+                assert.ok(wide <= width, `${what}: ${wide} wide`);
+            };
+            await look('begin');
+            await begin(page);
+            await attempt(page, copied);
+            await look('verdict');
+            await attempt(page, copied.replace(/;\n}\n$/, '\n    int unused = ;\n}\n'));
+            await look('error');
+            await attempt(page, reflect('printf("%g\\n", (double)normal.x);', '#include <stdio.h>'));
+            await look('prints');
+            await press(page, 'as at first');
+            await finished(page);
+            await page.close();
+        }
+});
+
+// ---- all of it --------------------------------------------------------------------------------
+
+if (pictures)
+    mkdirSync(pictures, { recursive: true });
+let failed = 0;
+for (const [name, act] of tests) {
+    if (words.length > 0 && !words.some(word => name.includes(word)))
+        continue;
+    const from = performance.now();
+    try {
+        await act();
+        assert.deepEqual(errors, [], 'errors in the console');
+        assert.deepEqual(foreign, [], 'requests to others');
+        console.log(`good   ${name} (${((performance.now() - from) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+        failed++;
+        console.log(`FAILED ${name}: ${error.stack}`);
+        errors.length = foreign.length = 0;
+        for (const page of await browser.pages())
+            if (!page.url().startsWith('about:'))
+                await page.close();
+    }
+}
+await browser.close();
+server.close();
+rmSync(profile, { recursive: true, force: true });
+process.exit(failed > 0 ? 1 : 0);
