@@ -41,6 +41,8 @@ typedef struct demo_live {
                         rt_image *image);
     rt_status (*draft)(int stage, const demo_view *view, const rt_options *options,
                        rt_image *image);
+    /* The byte for one channel of a pixel of that picture. */
+    unsigned char (*encode)(int stage, float value);
     /* The camera: round the room, sideways, nearer by a factor; all as it was at first. */
     void (*orbit)(float right_turns, float up_turns);
     void (*pan)(const demo_view *view, float right_pixels, float up_pixels);

@@ -62,6 +62,11 @@ static rt_status live_render(int stage, const demo_view *view, const rt_options 
     return rt_render_pixels(live_pixel, &context, options, image);
 }
 
+static unsigned char live_encode(int stage, float value)
+{
+    return rt_encode(value, stage < 5 ? 1.0 : 2.2);
+}
+
 /* Direct light, at once: all lanes without bounces. What is black then may be a mirror: these
  * pixels are asked again, one ray at a time. */
 static rt_status live_draft(int stage, const demo_view *view, const rt_options *options,
@@ -476,7 +481,21 @@ static int live_path(int stage, const demo_view *view, const rt_options *options
 }
 
 static const demo_live live_room = {
-    live_render, live_draft, live_orbit, live_pan,      live_zoom, live_reset, live_pick,
-    live_name,   live_drag,  live_print, live_outlines, live_path, live_save,  live_load};
+    .render = live_render,
+    .draft = live_draft,
+    .encode = live_encode,
+    .orbit = live_orbit,
+    .pan = live_pan,
+    .zoom = live_zoom,
+    .reset = live_reset,
+    .pick = live_pick,
+    .name = live_name,
+    .drag = live_drag,
+    .print = live_print,
+    .outlines = live_outlines,
+    .path = live_path,
+    .save = live_save,
+    .load = live_load,
+};
 
 #endif

@@ -282,9 +282,7 @@ void viewer_encode(const viewer *v, bool other, const rt_image *image, int chann
     const rt_vec3 *pixels = image->pixels;
     const int count = (int)pixel_count(image), stage = stage_of(v, other);
     const float gamma = v->gamma;
-    unsigned char (*byte)(float value) = is_own(v, stage) ? v->d->encode
-                                         : stage < 5      ? demo_linear
-                                                          : demo_gamma;
+    const bool own = is_own(v, stage);
 #ifdef _OPENMP
     const int threads = rt_thread_count(v->options.threads);
 #pragma omp parallel for num_threads(threads)
@@ -293,7 +291,9 @@ void viewer_encode(const viewer *v, bool other, const rt_image *image, int chann
         const float rgb[3] = {pixels[i].x, pixels[i].y, pixels[i].z};
         unsigned char *to = bytes + (size_t)i * (size_t)channels;
         for (int k = 0; k < 3; k++)
-            to[k] = gamma > 0.0f ? rt_encode(rgb[k], (double)gamma) : byte(rgb[k]);
+            to[k] = gamma > 0.0f ? rt_encode(rgb[k], (double)gamma)
+                    : own        ? v->d->encode(rgb[k])
+                                 : v->d->live->encode(stage, rgb[k]);
         if (channels == 4)
             to[3] = 255;
     }

@@ -61,19 +61,28 @@ function RawInline(raw) -- <img src="...">
     return raw
 end
 
--- Before and after: in a chapter of the site that table is the picture alive (see docs/live). Without
--- a script, and on GitHub, it is the table.
+-- In a chapter of the site the first table, before and after, is the picture alive (see docs/live);
+-- without a script, and on GitHub, it is the table. Below the first exercise is the editor.
 function Pandoc(doc)
     local demo = doc.meta.demo and pandoc.utils.stringify(doc.meta.demo)
+    local routines = doc.meta.routines and pandoc.utils.stringify(doc.meta.routines)
+    local blocks, alive = pandoc.List(), false
     if not demo then
         return doc
     end
-    for i, block in ipairs(doc.blocks) do
-        if block.t == "Table" then
-            doc.blocks[i] = pandoc.Div({ block }, { id = "live-" .. demo, class = "live", ["data-demo"] = demo })
-            break
+    for _, block in ipairs(doc.blocks) do
+        if block.t == "Table" and not alive then
+            block = pandoc.Div({ block }, { id = "live-" .. demo, class = "live", ["data-demo"] = demo })
+            alive = true
+        end
+        blocks:insert(block)
+        if routines and pandoc.utils.stringify(block):match("^1%. Write it yourself") then
+            blocks:insert(pandoc.Div({}, { class = "edit", ["data-routines"] = routines, ["data-live"] = "live-" .. demo }))
+            blocks:insert(pandoc.RawBlock("html", '<script defer src="edit/edit.js"></script>'))
         end
     end
-    doc.blocks:insert(pandoc.RawBlock("html", '<script src="live/' .. demo .. '.js"></script>\n<script src="live/live.js"></script>'))
+    blocks:insert(pandoc.RawBlock("html", '<script src="live/' .. demo .. '.js"></script>\n<script src="live/live.js"></script>'))
+    doc.blocks = blocks
+    doc.meta["header-includes"] = pandoc.MetaBlocks { pandoc.RawBlock("html", '<link rel="icon" href="data:,">') }
     return doc
 end

@@ -19,15 +19,19 @@ done
 cp rt.h LICENSE CHANGELOG.md "$site" && mkdir -p "$site/docs" && cp -r docs/mistakes "$site/docs/" || exit 1
 
 # The pictures that are alive: see docs/live. Without them the pages are without a script.
-live=
+live= edit=
 docs/live/build.sh "$site/live"
 case $? in 0) live=1 ;; 3) ;; *) exit 1 ;; esac
+if [ -n "$live" ]; then
+    docs/live/build-edit.sh "$site/edit"
+    case $? in 0) edit=1 ;; 3) ;; *) exit 1 ;; esac
+fi
 
 page() { # SOURCE TARGET DEMO
     title=$(sed -n '1s/^# //p' "$1")
-    demo=${live:+$3}
+    demo=${live:+$3} routines=${edit:+$(docs/live/routines.sh "${3#demo}")}
     pandoc -f gfm-tex_math_dollars -t html5 -s --mathml --lua-filter docs/site.lua --css site.css \
-        ${demo:+--css live/live.css -M "demo=$demo"} \
+        ${demo:+--css live/live.css -M "demo=$demo"} ${routines:+-M "routines=$routines"} \
         --metadata pagetitle="$title - rt.h" --metadata lang=en -o "$site/$2" "$1" || exit 1
 }
 page README.md index.html

@@ -4,28 +4,23 @@
 #   <script defer src="FOLDER/edit.js"></script>
 # and, where the editor is to be,
 #   <div class="edit" data-routines="rt_hit_sphere rt_camera_ray" data-live="live-demo01"></div>
-# The compiler in the page compiles EDIT_SOURCE (tests/classroom/pupil_page.c), with EDIT_FLAGS
-# (-DRT_STATIC), and links it with the objects EDIT_OBJECTS (none), made for wasm32-wasi. To be
-# run at the top of the repository; needs node, npm, clang and wasm-ld (Debian: lld wasi-libc
-# libclang-rt-14-dev-wasm32). The packages of npm come to EDIT_PACKAGES (build/web), once.
+# The compiler in the page compiles tests/classroom/pupil_page.c with what the reader wrote, and links
+# it with the viewer that docs/live/build.sh has made. To be run at the top of the repository. Exit
+# status 3, with one line, where a tool is missing.
 set -e
-[ $# = 1 ] || { sed -n '2,11s/^# //p' "$0" >&2; exit 2; }
-for tool in node npm clang wasm-ld; do
-    command -v $tool >/dev/null || { echo "build-edit.sh: $tool is missing" >&2; exit 1; }
-done
+[ $# = 1 ] || { sed -n '2,9s/^# //p' "$0" >&2; exit 2; }
 folder=$1
 here=docs/live
-packages=${EDIT_PACKAGES:-${BUILD:-build}/web}
-source=${EDIT_SOURCE:-tests/classroom/pupil_page.c}
-flags=${EDIT_FLAGS--DRT_STATIC}
+packages=${BUILD:-build}/web
+source=tests/classroom/pupil_page.c
+command -v node >/dev/null && [ -d "$packages/node_modules" ] || {
+    echo "note: no node, or no packages of npm (make deps-web): no editor in the pages"
+    exit 3
+}
 mkdir -p "$folder" "$packages"
 work=$(mktemp -d "$packages/work.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 
-cmp -s $here/package-lock.json "$packages/package-lock.json" && [ -d "$packages/node_modules" ] || {
-    cp $here/package.json $here/package-lock.json "$packages"
-    npm ci --prefix "$packages" --no-audit --no-fund --loglevel=error
-}
 clang=$packages/node_modules/@yowasp/clang
 version=$(sed -n 's/.*"version": "\(.*\)".*/\1/p' "$clang/package.json")
 
@@ -45,26 +40,22 @@ megabytes=$(cat "$folder"/*.bin | wc -c | awk '{ printf "%.0f", $1 / 1e6 }')
 # and that rt.h, which came after the #define, has none of that name.
 names=$(sed -n 's/^#ifndef \(rt_[a-z_]*\)$/\1/p' rt.h)
 tests/classroom/starter "$work/starters" >/dev/null
-files=$(clang --target=wasm32-wasi -std=c99 -I. $flags -MM "$source" \
+files=$(clang --target=wasm32-wasi -std=c99 -I. -MM "$source" \
     "-DSUBMISSION=\"$work/starters/my_reflect.c\"" | tr -s ' \\\n' '\n' |
     grep -v -e '\.o:$' -e my_reflect.c -e '^$' | while read -r file; do
     (cd "$(dirname "$file")" && echo "$(pwd)/$(basename "$file")")
 done | sed "s|^$(pwd)/||" | sort -u)
-objects=
-for object in $EDIT_OBJECTS; do
-    cp "$object" "$folder"
-    objects="$objects $(basename "$object")"
-done
+cp "$packages/viewer.o" "$packages/page.o" "$folder"
 for name in $names; do
     echo "#ifdef $name"
     echo "#undef $name"
     echo "typedef int $name;"
     echo "PUPIL_ANSWERS($name, call_${name#rt_})"
     echo "#endif"
-done | FLAGS=$flags OBJECTS=$objects node $here/pack.mjs "$source" $files >"$folder/edit-files.json"
+done | OBJECTS="viewer.o page.o" node $here/pack.mjs "$source" $files >"$folder/edit-files.json"
 
 # Who judges; the texts to begin with; the scripts.
-clang --target=wasm32-wasi -mexec-model=reactor -std=c99 -O2 -ffp-contract=off -Wall -DRT_STATIC \
+clang --target=wasm32-wasi -mexec-model=reactor -std=c99 -O2 -ffp-contract=off -Wall \
     -Wl,--strip-all -o "$folder/grade.wasm" tests/classroom/grade_page.c
 node -e 'const fs = require("fs"), all = {};
 for (const name of process.argv.slice(2))

@@ -14,7 +14,7 @@ mkdir -p "$folder" "$build" || exit
 compile() { # SOURCE OBJECT
     [ "$2" -nt "$1" ] && [ -z "$(find rt.h demos -name '*.h' -newer "$2")" ] ||
         clang --target=wasm32-wasi -std=c11 -O3 -fno-math-errno -ffp-contract=off -msimd128 \
-            -Wall -Wextra -Wpedantic -c -o "$2" "$1"
+            -Wall -Wextra -Wpedantic -Werror -c -o "$2" "$1"
 }
 compile demos/viewer.c "$build/viewer.o" && compile demos/page.c "$build/page.o" || exit
 for source in demos/demo[01]*.c; do

@@ -178,7 +178,7 @@ const french = {
     'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample': 'échantillon', 'The path': 'Le chemin', 'The path in words': 'Le chemin en mots', 'sample before': 'échantillon précédent',
     'next sample': 'échantillon suivant', 'on the left': 'à gauche', 'the chapter before': 'le chapitre précédent',
     'one sample': 'un seul échantillon', 'other numbers': 'd’autres nombres', 'with its noise': 'avec son bruit',
-    'the right one': 'l’image juste', 'rt.h\'s own function': 'la fonction de rt.h',
+    'yours': 'la vôtre', 'right one': 'la bonne', 'rt.h\'s own function': 'la fonction de rt.h',
     'rays at a time': 'rayons à la fois', 'workers': 'processus', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
     'as in chapter': 'comme au chapitre', 'The picture is done.': 'L’image est terminée.', 'error': 'erreur', 'gamma': 'gamma',
     'million rays a second': 'millions de rayons par seconde', 'This picture cannot move here': 'Cette image ne peut pas bouger ici',
@@ -343,7 +343,7 @@ async function bring_to_life(root, name, encoded) {
     /* The one to compare with: only when it is looked at, and the picture itself is done. */
     function refine_other() {
         const noise = compares() === NOISY, right = drawn_by === 'mine';
-        if (noise || results[1].length > 0 || !(divide > 0 || (chapter.chart === 'error' && compares() === OTHER_NUMBERS)))
+        if (noise || results[1].length > 0 || !(right || divide > 0 || (chapter.chart === 'error' && compares() === OTHER_NUMBERS)))
             return;
         const samples = compares() === ONE_SAMPLE && !right ? 1 : ex.page_samples();
         results[1] = workers.map(() => ({samples: 0}));
@@ -675,7 +675,8 @@ async function bring_to_life(root, name, encoded) {
         const picture = make('canvas', {class: 'picture', width: W, height: H, tabindex: 0, role: 'application',
             'aria-label': `${alt}. Drag to move; Enter: the path of a pixel. Arrows, page up and down, 1 to 7, plus, minus, b, r.`});
         const before = make('canvas', {class: 'other', width: W, height: H, 'aria-hidden': 'true'});
-        const stage = make('div', {class: 'stage'}, image, picture, before, make('span', {class: 'line', 'aria-hidden': 'true'}));
+        const stage = make('div', {class: 'stage'}, image, picture, before, make('span', {class: 'line', 'aria-hidden': 'true'}),
+            make('span', {class: 'whose yours', text: t('yours')}), make('span', {class: 'whose right', text: t('right one')}));
         const views = ['from above', 'from the side'].map(view => make('figure', {},
             make('canvas', {class: 'plan', role: 'img', 'aria-label': `${t('The path')}, ${t(view)}`}), make('figcaption', {text: t(view)})));
         const said = make('pre', {class: 'words', tabindex: 0, 'aria-label': t('The path in words')}), where = make('span', {'aria-live': 'polite'});
@@ -733,7 +734,7 @@ async function bring_to_life(root, name, encoded) {
         const compare = make('span'), divider = make('input', {type: 'range', class: 'divide', min: 0, max: 100, value: 0, oninput: () => set_divide(+divider.value)});
         controls.compare = () => {
             divider.value = divide;
-            compare.textContent = `${t('on the left')}: ${drawn_by === 'mine' ? t('the right one') : t(text(ex.page_comparison(compares())))}`;
+            compare.textContent = `${t('on the left')}: ${t(text(ex.page_comparison(compares())))}`;
         };
         const list = make('select', {onchange: () => { thing = list.selectedIndex; }}, ...THINGS.slice(0, first_stage < 3 ? 2 : undefined).map(name => make('option', {text: t(name)})));
         controls.thing = () => { list.selectedIndex = thing; };
@@ -744,7 +745,7 @@ async function bring_to_life(root, name, encoded) {
             button(t('all as at first'), null, () => { ex.page_key('r'.charCodeAt(0)); as_at_first(); step(); }));
         [...root.children].forEach(child => { child.hidden = true; child.classList.add('still'); });
         root.append(make('div', {class: 'panes'}, stage, inspector), progress, status, spoken,
-            make('div', {class: 'bar'}, make('label', {class: 'wide'}, compare, ' ', divider)), bar, chart.element, move);
+            make('div', {class: 'bar dividing'}, make('label', {class: 'wide'}, compare, ' ', divider)), bar, chart.element, move);
         return {canvas: picture, other: before, status, spoken, progress, plans: views.map(view => view.firstChild), said, where, controls, chart};
     }
     function text_of_kind(kind) { return text(ex.page_kind(kind)); }
@@ -804,8 +805,7 @@ async function bring_to_life(root, name, encoded) {
         root.classList.add('mine');
         workers.forEach(w => { w.busy = false; });
         tell_all({do: 'module', name: 'mine', bytes: mine});
-        if (divide === 0)
-            set_divide(50);
+        set_divide(0);
         again(true);
     });
     root.addEventListener('mine-gone', () => { drawn_by = 'chapter'; root.classList.remove('mine'); again(true); });

@@ -1,6 +1,7 @@
 /* pupil.c in a page of the site: the student's routines, to be asked by grade_page.c. The
  * compiler in the page (docs/live/edit-worker.js) makes a WebAssembly module of this file, with
- * -DSUBMISSION='"my_hit_sphere.c"', and of the objects that docs/live/build-edit.sh was given.
+ * -DSUBMISSION='"my_hit_sphere.c"', and of the viewer (demos/viewer.c, page.c), compiled before: so
+ * it is the live picture, too.
  * After this file comes, for each routine that the student replaces, and only for these, for
  * the rest would take most of the time,
  *
@@ -8,7 +9,7 @@
  *
  * Each kind of input is asked in a new instance, as natively in a new process. Nothing that it
  * says is believed: it can only answer rightly or wrongly. */
-#include SUBMISSION
+#include "show.c" /* the submission, and the room by it */
 
 #include "routines.h"
 
@@ -50,11 +51,3 @@ __attribute__((export_name("pupil_inputs"))) float *pupil_inputs(int ins, int ou
 OR_CRASH(malloc, (size_t size), (size))
 OR_CRASH(calloc, (size_t count, size_t size), (count, size))
 OR_CRASH(realloc, (void *old, size_t size), (old, size))
-
-/* As natively, the student's file may have no main; define PUPIL_HAS_MAIN if yours has. */
-#ifndef PUPIL_HAS_MAIN
-__attribute__((weak)) int main(void)
-{
-    return 0;
-}
-#endif

@@ -5,7 +5,6 @@
 #ifndef ROUTINES_H
 #define ROUTINES_H
 
-#define RT_IMPLEMENTATION
 #include "../../rt.h"
 
 enum { MAX_IN = 16, MAX_OUT = 10, MAX_FIELDS = 8 };
