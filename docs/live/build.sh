@@ -25,4 +25,9 @@ for source in demos/demo[01]*.c; do
     printf '(window.rt_live ??= {}).%s = "%s";\n' "$demo" "$(base64 <"$build/$demo.wasm" | tr -d '\n')" \
         >"$folder/$demo.js" || exit
 done
-cp docs/live/live.js docs/live/live.css "$folder"
+{
+    echo "'use strict'; (() => {"
+    cat docs/live/work.js docs/live/words.js docs/live/charts.js docs/live/live.js
+    echo "})();"
+} >"$folder/live.js"
+cp docs/live/live.css "$folder"

@@ -1,204 +1,8 @@
-/* The picture of a chapter, alive: <div class="live" data-demo="demo07">...</div>,
- * with the still picture in it. The demo
- * is compiled to WebAssembly and runs on as many workers as there are cores, each with some parts of
- * the picture. demos/viewer.c says what a drag or a key means and what is to be rendered; this script
- * draws it. It needs nothing from the network and works from file://. Without it, and where it cannot
- * run, the still picture stays. */
-'use strict';
-(() => {
-
-/* ---- an instance of a module: in the page and in each worker -------------------------- */
-
-/* The functions that a C library wants of its system: time, and text to print. */
-function open(module, width, height) {
-    const said = [], imports = {};
-    let ex;
-    for (const {module: from, name} of WebAssembly.Module.imports(module))
-        (imports[from] ??= {})[name] = () => 0;
-    const system = imports.wasi_snapshot_preview1 ?? {};
-    system.clock_time_get = (id, precision, at) => {
-        const now = BigInt(Math.round(1e6 * (performance.timeOrigin + performance.now())));
-        new DataView(ex.memory.buffer).setBigUint64(at, now, true);
-        return 0;
-    };
-    system.fd_write = (file, list, count, written) => {
-        const memory = new DataView(ex.memory.buffer);
-        let all = 0;
-        for (let i = 0; i < count; i++) {
-            const at = memory.getUint32(list + 8 * i, true), size = memory.getUint32(list + 8 * i + 4, true);
-            if (said.length < 100) /* who prints without end is not heard out */
-                said.push(new TextDecoder().decode(new Uint8Array(ex.memory.buffer, at, size)));
-            all += size;
-        }
-        memory.setUint32(written, all, true);
-        return 0;
-    };
-    system.proc_exit = status => { throw new Error(`exit ${status}`); };
-    ex = new WebAssembly.Instance(module, imports).exports;
-    ex._initialize();
-    if (ex.page_start(width, height) !== 0)
-        throw new Error('not enough memory');
-    const bytes = (at, size) => new Uint8Array(ex.memory.buffer, at, size);
-    return {
-        ex, said, bytes,
-        text: at => { const m = bytes(at); return new TextDecoder().decode(m.subarray(0, m.indexOf(0))); },
-        wish() { const at = ex.page_wish(); return bytes(at, ex.page_wish_size()).slice(); },
-        obey(wish) { const at = ex.page_wish(); bytes(at, wish.length).set(wish); ex.page_obey(); },
-    };
-}
-
-/* ---- what a worker does: answers messages by post ------------------------------------- */
-
-function work(post) {
-    const PART = 4096, SLICE = 12, SHOW = 33; /* pixels; milliseconds */
-    const instances = {}, targets = {};
-    const channel = new MessageChannel(); /* to come back after other messages were heard */
-    let k, n, width, height, job = null, shown = 0, waiting = false;
-    channel.port1.onmessage = proceed;
-
-    const size = part => Math.min(PART, width * height - part * PART);
-    const own = () => { const list = []; for (let p = k; p * PART < width * height; p += n) list.push(p); return list; };
-    const target = (name, other) => targets[name + other] ??= {samples: 0, next: 0, dirty: new Map(), rays: 0, squares: 0, sum: 0};
-
-    function send(done) {
-        const t = target(job.name, job.other), list = [...t.dirty];
-        shown = performance.now();
-        post({k, run: job.run, other: job.to_other, samples: t.samples, rays: t.rays, squares: t.squares, sum: t.sum, done,
-            busy: job.busy, parts: list.map(p => p[0]), pixels: list.map(p => p[1])}, list.map(p => p[1].buffer));
-        t.dirty.clear();
-    }
-    function proceed() {
-        waiting = false;
-        if (!job)
-            return;
-        const {ex, bytes} = instances[job.name], t = target(job.name, job.other), list = own();
-        const start = performance.now();
-        while (t.samples < job.samples && performance.now() - start < SLICE) {
-            const part = list[t.next], at = ex.page_refine(part, job.other);
-            if (!at)
-                throw new Error('not enough memory');
-            t.dirty.set(part, bytes(at, 4 * size(part)).slice());
-            if (++t.next === list.length) {
-                t.next = t.rays = t.squares = t.sum = 0;
-                t.samples++;
-                for (const p of list) {
-                    t.rays += ex.page_rays(p, job.other);
-                    t.squares += ex.page_squares(p, job.other);
-                    t.sum += ex.page_sum(p, job.other);
-                }
-            }
-        }
-        job.busy += performance.now() - start;
-        if (t.samples >= job.samples) {
-            send(true);
-            job = null;
-        } else {
-            if (performance.now() - shown > SHOW)
-                send(false);
-            wait();
-        }
-    }
-    function wait() {
-        if (!waiting)
-            channel.port2.postMessage(0);
-        waiting = true;
-    }
-    const answer = {
-        start(m) { ({k, n, width, height} = m); },
-        module(m) {
-            instances[m.name] = open(new WebAssembly.Module(m.bytes), width, height);
-            for (const key of Object.keys(targets).filter(key => key.startsWith(m.name)))
-                delete targets[key];
-        },
-        draft(m) { /* what is being refined is void: something moved */
-            const {ex, bytes, obey} = instances[m.name], start = performance.now();
-            job = null;
-            obey(m.wish);
-            const at = ex.page_draft(), w = ex.page_draft_width(), h = ex.page_draft_height();
-            const pixels = new Uint8ClampedArray(bytes(at, 4 * w * h));
-            post({k, draft: m.number, width: w, height: h, pixels, took: performance.now() - start}, [pixels.buffer]);
-        },
-        refine(m) {
-            const {ex, obey} = instances[m.name], t = target(m.name, m.other);
-            obey(m.wish);
-            if (m.anew) {
-                own().forEach(part => ex.page_forget(part, m.other));
-                Object.assign(t, {samples: 0, next: 0});
-                t.dirty.clear();
-            }
-            job = {...m, busy: 0};
-            wait();
-        },
-        encode(m) { /* the same picture, other bytes */
-            const {ex, bytes, obey} = instances[m.name], list = own();
-            obey(m.wish);
-            const pixels = list.map(part => bytes(ex.page_encode(part, m.other), 4 * size(part)).slice());
-            post({k, encoded: true, other: m.to_other, parts: list, pixels}, pixels.map(p => p.buffer));
-        },
-        collect(m) { /* all that is known about our parts */
-            const {ex, bytes} = instances.chapter, g = ex.page_guide_size();
-            const parts = own().map(part => ({part,
-                pixels: bytes(ex.page_pixels(part), 12 * size(part)).slice(), half: bytes(ex.page_half(part), 12 * size(part)).slice(),
-                guides: bytes(ex.page_guides(part), g * size(part)).slice()}));
-            post({k, run: m.run, collected: parts}, parts.flatMap(p => [p.pixels.buffer, p.half.buffer, p.guides.buffer]));
-        },
-        finish(m) { /* the parts of all workers, without their noise */
-            const {ex, bytes, obey} = instances.chapter, g = ex.page_guide_size();
-            obey(m.wish);
-            const to = {pixels: ex.page_pixels(-1), half: ex.page_half(-1), guides: ex.page_guides(-1)};
-            for (const p of m.parts) {
-                bytes(to.pixels + 12 * PART * p.part, p.pixels.length).set(p.pixels);
-                bytes(to.half + 12 * PART * p.part, p.half.length).set(p.half);
-                bytes(to.guides + g * PART * p.part, p.guides.length).set(p.guides);
-            }
-            const start = performance.now(), at = ex.page_finish(m.samples), took = performance.now() - start;
-            const pixels = new Uint8ClampedArray(bytes(at, 4 * width * height));
-            post({k, run: m.run, finished: pixels, samples: m.samples, took, error: m.last ? ex.page_finished_error() : -1}, [pixels.buffer]);
-        },
-        stop() { job = null; },
-    };
-    channel.port1.onmessage = () => guard(proceed);
-    function guard(f, m) {
-        try {
-            f(m);
-        } catch (error) {
-            job = null;
-            post({k, failed: String(error.message ?? error)});
-        }
-    }
-    return m => guard(answer[m.do], m);
-}
-
-/* ---- words ----------------------------------------------------------------------------- */
-
-const french = {
-    'samples': 'échantillons', 'bounces': 'rebonds', 'all as at first': 'tout comme au début', 'the camera': 'la caméra',
-    'the ball': 'la boule', 'the mirror': 'le miroir', 'the cube': 'le cube', 'the lamp': 'la lampe', 'move': 'déplacer',
-    'left': 'à gauche', 'right': 'à droite', 'up': 'en haut', 'down': 'en bas', 'nearer': 'plus près', 'farther': 'plus loin',
-    'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample': 'échantillon', 'The path': 'Le chemin', 'The path in words': 'Le chemin en mots', 'sample before': 'échantillon précédent',
-    'next sample': 'échantillon suivant', 'on the left': 'à gauche', 'the chapter before': 'le chapitre précédent',
-    'one sample': 'un seul échantillon', 'other numbers': 'd’autres nombres', 'with its noise': 'avec son bruit',
-    'yours': 'la vôtre', 'right one': 'la bonne', 'rt.h\'s own function': 'la fonction de rt.h',
-    'rays at a time': 'rayons à la fois', 'workers': 'processus', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
-    'as in chapter': 'comme au chapitre', 'The picture is done.': 'L’image est terminée.', 'error': 'erreur', 'gamma': 'gamma',
-    'million rays a second': 'millions de rayons par seconde', 'This picture cannot move here': 'Cette image ne peut pas bouger ici',
-};
-const t = navigator.language?.startsWith('fr') ? words => french[words] ?? words : words => words;
-
-/* An element: make('button', {class: 'x', text: 'y'}, child...). */
-function make(name, attributes = {}, ...children) {
-    const element = document.createElement(name);
-    for (const [key, value] of Object.entries(attributes)) {
-        if (key === 'text')
-            element.textContent = value;
-        else if (key.startsWith('on'))
-            element[key] = value;
-        else if (value !== false)
-            element.setAttribute(key, value === true ? '' : value);
-    }
-    element.append(...children);
-    return element;
-}
+/* The picture of a chapter, alive: <div class="live" data-demo="demo07">, with the still picture in it.
+ * The demo is compiled to WebAssembly and runs on as many workers as there are cores, each with some
+ * parts of the picture. demos/viewer.c says what a drag or a key means and what is to be rendered; this
+ * script draws it. It needs nothing from the network and works from file://. Without it, and where it
+ * cannot run, the still picture stays. See build.sh for how the scripts of this folder become one. */
 
 /* ---- the figure -------------------------------------------------------------------------- */
 
@@ -233,7 +37,7 @@ async function bring_to_life(root, name, encoded) {
     /* Its state beside the viewer's. */
     const images = [new ImageData(W, H), new ImageData(W, H)]; /* the picture, and the one to compare with */
     let workers = [], run = 0, running = false, dirty = false, number = 0, latest = 0, moved_at = 0;
-    let results = [[], []], divide = 0, thing = 0, drawn_by = 'chapter', mine = null, alarm = 0, visible = false;
+    let results = [[], []], divide = 0, thing = 0, drawn_by = 'chapter', mine = null, alarm = 0, visible = false, stale = true;
     let finished_samples = 0, finishing = false, finished_error = -1, timer = 0;
     const report = {first: 0, moves: [], drafts: [], done: 0, workers: 0}; /* for tests and the curious */
 
@@ -290,7 +94,6 @@ async function bring_to_life(root, name, encoded) {
         drawn_by = 'chapter';
         root.classList.remove('mine');
         hire(report.workers);
-        root.dispatchEvent(new CustomEvent('mine-failed', {detail: why}));
         say(why);
         again(true);
     }
@@ -353,8 +156,11 @@ async function bring_to_life(root, name, encoded) {
     function again(anew) {
         moved_at = 0;
         running = false;
-        if (visible)
-            refine(anew);
+        stale ||= anew;
+        if (visible) {
+            refine(stale);
+            stale = false;
+        }
         show_controls();
     }
     function compares() {
@@ -689,7 +495,7 @@ async function bring_to_life(root, name, encoded) {
             button('×', t('close'), close_path)), make('div', {class: 'plans'}, ...views), legend, said);
         const progress = make('progress', {max: 1, value: 0, 'aria-label': t('samples')}), status = make('div', {class: 'status'});
         const spoken = make('div', {class: 'spoken', 'aria-live': 'polite'});
-        const controls = {}, bar = make('div', {class: 'bar'}), chart = make_chart();
+        const controls = {}, bar = make('div', {class: 'bar'}), chart = chart_of();
 
         const slider = (key, name, min, max, step, value, show, set) => {
             const input = make('input', {type: 'range', min, max, step}), output = make('output');
@@ -749,52 +555,15 @@ async function bring_to_life(root, name, encoded) {
         return {canvas: picture, other: before, status, spoken, progress, plans: views.map(view => view.firstChild), said, where, controls, chart};
     }
     function text_of_kind(kind) { return text(ex.page_kind(kind)); }
-    function show_controls() { Object.values(controls).forEach(show => show()); }
-
-    /* A chart beside the picture that grows with it. */
-    function make_chart() {
-        const element = make('div', {class: 'chart'}), none = () => {};
+    function chart_of() {
+        const none = () => {};
         if (chapter.chart === 'error')
-            return error_chart(element);
+            return error_chart(() => compares() !== OTHER_NUMBERS ? [] : ex.page_sobol() ? ['Sobol', 'random'] : ['random', 'Sobol']);
         if (chapter.chart === 'speed')
-            return speed_chart(element);
-        return {element, begin: none, error: none, speed: none};
+            return speed_chart(() => `${ex.page_lanes()} ${t('rays at a time')}, ${workers.length} ${t('workers')}`);
+        return {element: '', begin: none, error: none, speed: none};
     }
-    /* The error against the samples, both as logarithms: a straight line for each. */
-    function error_chart(element) {
-        const w = 320, h = 180, left = 44, bottom = 26, lines = [[], []];
-        const x = samples => left + Math.log2(samples) / 10 * (w - left - 16), y = error => 8 + (Math.log10(2) - Math.log10(error)) / 3 * (h - 8 - bottom);
-        function draw() {
-            const grid = [1, 4, 16, 64, 256, 1024].map(s => `<line x1="${x(s)}" x2="${x(s)}" y1="8" y2="${h - bottom}"/><text x="${x(s)}" y="${h - 10}" text-anchor="middle">${s}</text>`)
-                .concat([1, 0.1, 0.01].map(e => `<line x1="${left}" x2="${w - 16}" y1="${y(e)}" y2="${y(e)}"/><text x="${left - 4}" y="${y(e) + 4}" text-anchor="end">${100 * e} %</text>`));
-            const curves = lines.map((line, i) => line.length === 0 ? '' :
-                `<polyline class="curve-${i}" points="${line.map(p => `${x(p[0]).toFixed(1)},${y(p[1]).toFixed(1)}`).join(' ')}"/>` +
-                line.map(p => `<circle class="curve-${i}" cx="${x(p[0]).toFixed(1)}" cy="${y(p[1]).toFixed(1)}" r="2.5"/>`).join(''));
-            const last = lines.map(line => line.at(-1)).filter(Boolean).map(p => `${p[0]} ${t('samples')}: ${(100 * p[1]).toFixed(1)} %`).join('; ');
-            const names = compares() === OTHER_NUMBERS ? (ex.page_sobol() ? ['Sobol', 'random'] : ['random', 'Sobol']) : [''];
-            const key = names.length > 1 ? names.map((name, i) => `<text class="curve-${i}" x="${w - 12}" y="${22 + 14 * i}" text-anchor="end">${name}</text>`).join('') : '';
-            element.innerHTML = `<svg viewBox="0 0 ${w} ${h}" role="img" aria-label="${t('error')}, ${t('samples')}: ${last}">${grid.join('')}${curves.join('')}${key}</svg>` +
-                `<p>${t('error')} (%), ${t('samples')}</p>`;
-        }
-        draw();
-        return {element, speed: () => {}, begin() { lines[0] = []; lines[1] = []; draw(); }, error(which, samples, error) {
-            if (samples > (lines[which].at(-1)?.[0] ?? 0) && samples <= 1024) {
-                lines[which].push([samples, error]);
-                draw();
-            }
-        }};
-    }
-    /* Millions of rays a second, for each setting that was tried. */
-    function speed_chart(element) {
-        const tried = new Map();
-        return {element, begin: () => {}, error: () => {}, speed(rate) {
-            const key = `${ex.page_lanes()} ${t('rays at a time')}, ${workers.length} ${t('workers')}`;
-            tried.set(key, Math.max(rate, tried.get(key) ?? 0));
-            const most = Math.max(...tried.values());
-            element.replaceChildren(make('p', {text: t('million rays a second')}), ...[...tried].map(([name, value]) =>
-                make('div', {class: 'speed'}, make('span', {text: name}), make('meter', {min: 0, max: most, value, 'aria-label': name}), make('b', {text: value.toFixed(1)}))));
-        }};
-    }
+    function show_controls() { Object.values(controls).forEach(show => show()); }
 
     /* ---- from here on it lives ------------------------------------------------------------------------ */
 
@@ -806,9 +575,20 @@ async function bring_to_life(root, name, encoded) {
         workers.forEach(w => { w.busy = false; });
         tell_all({do: 'module', name: 'mine', bytes: mine});
         set_divide(0);
+        move_to_editor();
         again(true);
     });
-    root.addEventListener('mine-gone', () => { drawn_by = 'chapter'; root.classList.remove('mine'); again(true); });
+    /* There it is in sight while its routine is written. */
+    function move_to_editor() {
+        const editor = document.querySelector(`.edit[data-live="${root.id}"]`);
+        if (!editor || root.nextElementSibling === editor)
+            return;
+        const top = editor.getBoundingClientRect().top;
+        editor.id ||= root.id + '-editor';
+        root.before(make('p', {}, make('a', {href: '#' + editor.id, text: t('The picture is with the editor now.')})));
+        editor.before(root);
+        scrollBy(0, editor.getBoundingClientRect().top - top);
+    }
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { if (ex.page_inspects()) show_path(); });
     addEventListener('resize', () => { if (ex.page_inspects()) show_path(); });
     document.addEventListener('visibilitychange', () => {
@@ -821,8 +601,8 @@ async function bring_to_life(root, name, encoded) {
         const now = entries.at(-1).isIntersecting;
         if (now && !visible) {
             visible = true;
-            if (!report.done)
-                again(run === 0);
+            if (!report.done || stale)
+                again(false);
         }
         visible = now;
     }, {rootMargin: '200px'}).observe(root);
@@ -842,4 +622,3 @@ for (const root of document.querySelectorAll('.live[data-demo]')) {
             root.append(make('p', {class: 'status', text: `${t('This picture cannot move here')}: ${error.message}`}));
         });
 }
-})();

@@ -1,0 +1,30 @@
+/* What the live pictures say, in English or French, as the browser wants; and how elements are made. */
+
+const french = {
+    'samples': 'échantillons', 'bounces': 'rebonds', 'all as at first': 'tout comme au début', 'the camera': 'la caméra',
+    'the ball': 'la boule', 'the mirror': 'le miroir', 'the cube': 'le cube', 'the lamp': 'la lampe', 'move': 'déplacer',
+    'left': 'à gauche', 'right': 'à droite', 'up': 'en haut', 'down': 'en bas', 'nearer': 'plus près', 'farther': 'plus loin',
+    'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample': 'échantillon', 'The path': 'Le chemin', 'The path in words': 'Le chemin en mots', 'sample before': 'échantillon précédent',
+    'next sample': 'échantillon suivant', 'on the left': 'à gauche', 'the chapter before': 'le chapitre précédent',
+    'one sample': 'un seul échantillon', 'other numbers': 'd’autres nombres', 'with its noise': 'avec son bruit',
+    'yours': 'la vôtre', 'The picture is with the editor now.': 'L’image est maintenant près de l’éditeur.', 'right one': 'la bonne', 'rt.h\'s own function': 'la fonction de rt.h',
+    'rays at a time': 'rayons à la fois', 'workers': 'processus', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
+    'as in chapter': 'comme au chapitre', 'The picture is done.': 'L’image est terminée.', 'error': 'erreur', 'gamma': 'gamma',
+    'million rays a second': 'millions de rayons par seconde', 'This picture cannot move here': 'Cette image ne peut pas bouger ici',
+};
+const t = navigator.language?.startsWith('fr') ? words => french[words] ?? words : words => words;
+
+/* An element: make('button', {class: 'x', text: 'y'}, child...). */
+function make(name, attributes = {}, ...children) {
+    const element = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) {
+        if (key === 'text')
+            element.textContent = value;
+        else if (key.startsWith('on'))
+            element[key] = value;
+        else if (value !== false)
+            element.setAttribute(key, value === true ? '' : value);
+    }
+    element.append(...children);
+    return element;
+}
