@@ -1,0 +1,397 @@
+/* The viewer: what the reader does with a picture, without a window and without a page. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "../demos/viewer.c"
+
+#include "../demos/live.h"
+
+enum { W = 48, H = 36, ALL = W * H };
+
+static double clock_says;
+
+double demo_seconds(void)
+{
+    return clock_says;
+}
+
+static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)
+{
+    const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
+    return rt_radiance(&scene_indirect, &ray, view->bounces, rng);
+}
+
+static const demo the_demo = {.name = "demo07",
+                              .title = "a test",
+                              .pixel = pixel,
+                              .live = &live_room,
+                              .encode = demo_gamma,
+                              .samples = 4,
+                              .bounces = 5};
+
+static viewer v;
+
+static int set_up(void **state)
+{
+    (void)state;
+    const rt_options options = {.samples = 4, .bounces = 5, .sampler = RT_RANDOM};
+    clock_says = 0.0;
+    return viewer_open(&v, &the_demo, W, H, &options, false) && viewer_show(&v) ? 0 : 1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    live_reset();
+    viewer_close(&v);
+    return 0;
+}
+
+/* All that is to be done until there is nothing to do; so many drafts were among it. */
+static int settle(void)
+{
+    int drafts = 0;
+    for (int i = 0; i < 100; i++)
+        switch (viewer_next(&v, clock_says)) {
+        case DRAW_A_DRAFT:
+            viewer_begin_anew(&v);
+            viewer_draft(&v);
+            drafts++;
+            break;
+        case REST: clock_says = v.rests; break;
+        case REFINE:
+            assert_int_equal(viewer_refine(&v, NULL, NULL), RT_OK);
+            v.finished = true;
+            break;
+        case NOTHING: return drafts;
+        }
+    fail();
+    return drafts;
+}
+
+/* The bytes that are shown; the next call overwrites them. */
+static const unsigned char *shown(void)
+{
+    static unsigned char bytes[2][ALL * 3];
+    static int turn;
+    turn = !turn;
+    viewer_encode(&v, v.hold, viewer_shown(&v), 3, bytes[turn]);
+    return bytes[turn];
+}
+
+static void test_the_first_picture_is_the_demos(void **state)
+{
+    (void)state;
+    rt_vec3 pixels[ALL];
+    rt_image image = {.width = W, .height = H, .pixels = pixels};
+    const rt_options options = {.samples = 4, .bounces = 5, .sampler = RT_RANDOM};
+    assert_int_equal(viewer_next(&v, 0.0), REFINE);
+    assert_int_equal(settle(), 0);
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image), RT_OK);
+    assert_memory_equal(v.image.pixels, pixels, sizeof pixels);
+}
+
+static void test_parts_of_the_picture_are_the_picture(void **state)
+{
+    (void)state;
+    rt_vec3 pixels[ALL];
+    settle();
+    for (int first = 0; first < ALL; first += 500) {
+        rt_image part = {.width = W, .height = H, .pixels = pixels + first};
+        part.first = first;
+        part.count = ALL - first < 500 ? ALL - first : 500;
+        assert_int_equal(viewer_add_samples(&v, false, &v.options, &part), RT_OK);
+    }
+    assert_memory_equal(v.image.pixels, pixels, sizeof pixels);
+}
+
+/* Where the ball is in the picture. */
+static const float ball_x = 0.32f * W, ball_y = 0.62f * H;
+
+static void test_a_press_that_trembles_is_a_click(void **state)
+{
+    (void)state;
+    settle();
+    v.slack = 2.0f;
+    viewer_press(&v, ball_x, ball_y, BUTTON_MAIN);
+    viewer_move(&v, ball_x + 1.0f, ball_y - 0.5f, false);
+    viewer_release(&v);
+    assert_true(v.inspect && v.tell && !v.changed);
+    assert_int_equal(v.x, (int)ball_x);
+    assert_int_equal(v.y, (int)ball_y);
+    assert_int_equal(viewer_next(&v, 0.0), NOTHING);
+}
+
+static void test_a_drag_moves_the_ball_at_once_and_then_in_earnest(void **state)
+{
+    (void)state;
+    const rt_vec3 before = room_spheres[0].center, eye = room_camera.position;
+    settle();
+    viewer_press(&v, ball_x, ball_y, BUTTON_MAIN);
+    viewer_move(&v, ball_x + 10.0f, ball_y, false);
+    assert_int_equal(viewer_next(&v, 1.0), DRAW_A_DRAFT);
+    viewer_begin_anew(&v);
+    viewer_draft(&v);
+    assert_ptr_equal(viewer_shown(&v), &v.draft);
+    assert_int_equal(viewer_next(&v, 1.1), REST);
+    assert_int_equal(viewer_next(&v, 1.2), REFINE);
+    viewer_release(&v);
+    assert_false(v.inspect || v.tell);
+    assert_true(room_spheres[0].center.x > before.x + 5.0f);
+    assert_true(fabsf(room_spheres[0].center.y - before.y) < 0.01f);
+    assert_true(rt_length(rt_sub(room_camera.position, eye)) == 0.0f);
+    assert_ptr_equal(viewer_shown(&v), &v.draft); /* until there is a sample */
+    clock_says = 2.0;
+    settle();
+    assert_ptr_equal(viewer_shown(&v), &v.image);
+}
+
+static void test_elsewhere_a_drag_goes_round(void **state)
+{
+    (void)state;
+    const rt_vec3 ball = room_spheres[0].center, eye = room_camera.position;
+    v.slack = 1.0f;
+    viewer_press(&v, 2.0f, 2.0f, BUTTON_MAIN);
+    viewer_move(&v, 4.0f, 2.0f, false);
+    viewer_release(&v);
+    assert_true(rt_length(rt_sub(room_spheres[0].center, ball)) == 0.0f);
+    assert_true(rt_length(rt_sub(room_camera.position, eye)) > 1.0f);
+    assert_true(v.changed);
+}
+
+static void test_what_is_pressed_outside_of_the_picture_is_nothing(void **state)
+{
+    (void)state;
+    settle();
+    viewer_press(&v, -3.0f, 5.0f, BUTTON_MAIN);
+    viewer_move(&v, 20.0f, 5.0f, false);
+    viewer_release(&v);
+    assert_false(v.changed || v.inspect);
+}
+
+static void test_every_stage_has_its_picture(void **state)
+{
+    (void)state;
+    unsigned char before[ALL * 3];
+    memcpy(before, shown(), sizeof before);
+    for (int stage = 6; stage >= 1; stage--) {
+        viewer_key(&v, '0' + stage, false);
+        assert_int_equal(settle(), 1);
+        const unsigned char *now = shown();
+        assert_memory_not_equal(before, now, sizeof before);
+        memcpy(before, now, sizeof before);
+    }
+}
+
+static void test_held_is_the_chapter_before(void **state)
+{
+    (void)state;
+    unsigned char four[ALL * 3];
+    viewer_key(&v, '4', false);
+    settle();
+    memcpy(four, shown(), sizeof four);
+    viewer_key(&v, '5', false);
+    settle();
+    assert_memory_not_equal(four, shown(), sizeof four);
+    viewer_key(&v, 'b', false);
+    settle();
+    assert_memory_equal(four, shown(), sizeof four);
+    viewer_key_up(&v, 'b');
+    settle();
+    assert_memory_not_equal(four, shown(), sizeof four);
+}
+
+static void test_other_numbers(void **state)
+{
+    (void)state;
+    settle();
+    v.comparison = OTHER_NUMBERS;
+    viewer_key(&v, 'b', false);
+    settle();
+    rt_vec3 pixels[ALL];
+    rt_image image = {.width = W, .height = H, .pixels = pixels};
+    const rt_options sobol = {.samples = 4, .bounces = 5, .sampler = RT_SOBOL};
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &sobol, &image), RT_OK);
+    assert_memory_equal(v.other.pixels, pixels, sizeof pixels);
+}
+
+static void test_samples_and_bounces_have_limits(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 40; i++)
+        viewer_key(&v, '+', false);
+    assert_int_equal(v.samples, 1 << 20);
+    for (int i = 0; i < 40; i++)
+        viewer_key(&v, '-', false);
+    assert_int_equal(v.samples, 1);
+    for (int i = 0; i < 200; i++)
+        viewer_key(&v, ']', false);
+    assert_int_equal(v.options.bounces, RT_ALL_BOUNCES);
+    for (int i = 0; i < 200; i++)
+        viewer_key(&v, '[', false);
+    assert_int_equal(v.options.bounces, 0);
+    assert_int_equal(v.view.bounces, 0);
+}
+
+static void test_more_samples_keep_what_there_is(void **state)
+{
+    (void)state;
+    settle();
+    const uint64_t rays = v.image.rays;
+    viewer_key(&v, '+', false);
+    assert_int_equal(viewer_next(&v, 0.0), REFINE);
+    settle();
+    assert_int_equal(v.image.samples, 8);
+    assert_true(v.image.rays > rays + rays / 2);
+}
+
+static void test_r_brings_everything_back(void **state)
+{
+    (void)state;
+    unsigned char first[ALL * 3];
+    settle();
+    memcpy(first, shown(), sizeof first);
+    static const char keys[] = "3]]lgp+zvd";
+    for (const char *key = keys; *key; key++)
+        viewer_key(&v, *key, false);
+    for (int key = KEY_LEFT; key <= KEY_FARTHER; key++)
+        viewer_key(&v, key, false);
+    for (int thing = BALL; thing <= LAMP; thing++)
+        viewer_nudge(&v, thing, 1, 1, false);
+    settle();
+    assert_memory_not_equal(first, shown(), sizeof first);
+    viewer_key(&v, 'r', false);
+    settle();
+    assert_memory_equal(first, shown(), sizeof first);
+}
+
+static void test_the_room_can_be_taken_elsewhere(void **state)
+{
+    (void)state;
+    unsigned char room[DEMO_STATE], moved[ALL * 3];
+    viewer_nudge(&v, 0, 2, 1, false);
+    for (int thing = BALL; thing <= LAMP; thing++)
+        viewer_nudge(&v, thing, 1, 0.5f, true);
+    settle();
+    memcpy(moved, shown(), sizeof moved);
+    assert_true(live_save(room) <= sizeof room);
+    viewer_key(&v, 'r', false);
+    settle();
+    assert_memory_not_equal(moved, shown(), sizeof moved);
+    live_load(room);
+    viewer_key(&v, '7', false);
+    settle();
+    assert_memory_equal(moved, shown(), sizeof moved);
+}
+
+static void test_drafts_are_as_large_as_time_allows(void **state)
+{
+    (void)state;
+    viewer_key(&v, '7', false);
+    for (int i = 0; i < 20; i++)
+        viewer_draft_took(&v, 0.1);
+    viewer_draft(&v);
+    assert_int_equal(v.draft.width, W / 4);
+    assert_int_equal(v.draft.height, H / 4);
+    for (int i = 0; i < 20; i++)
+        viewer_draft_took(&v, 0.001);
+    viewer_draft(&v);
+    assert_int_equal(v.draft.width, W);
+}
+
+static void test_without_noise(void **state)
+{
+    (void)state;
+    rt_vec3 pixels[ALL], half[ALL], clean[ALL];
+    rt_guide guides[ALL];
+    settle();
+    viewer_key(&v, 'd', false);
+    settle();
+    const rt_image *image = viewer_shown(&v);
+    assert_ptr_equal(image, &v.clean);
+    rt_image same = {.width = W, .height = H, .pixels = pixels, .half = half};
+    rt_image result = {.width = W, .height = H, .pixels = clean};
+    const rt_options options = {.samples = 4, .bounces = 5, .sampler = RT_RANDOM};
+    same.guides = guides;
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &same), RT_OK);
+    assert_int_equal(rt_denoise(&same, 0, &result), RT_OK);
+    assert_memory_equal(image->pixels, clean, sizeof clean);
+    viewer_key(&v, 'b', false); /* with its noise */
+    assert_ptr_equal(viewer_shown(&v), &v.image);
+    viewer_key_up(&v, 'b');
+    viewer_nudge(&v, BALL, 1, 0, false);
+    assert_int_equal(viewer_next(&v, clock_says), DRAW_A_DRAFT);
+    viewer_begin_anew(&v);
+    viewer_draft(&v); /* in motion, too */
+    assert_int_equal(v.draft.samples, 2);
+    assert_ptr_equal(viewer_shown(&v), &v.clean);
+}
+
+static void test_the_plan_fits(void **state)
+{
+    (void)state;
+    static viewer_line lines[VIEWER_LINES];
+    char words[4000];
+    for (int side = 0; side <= 1; side++)
+        for (int stage = 1; stage <= 7; stage++) {
+            text summary = text_in(words, sizeof words);
+            viewer_set_stage(&v, stage);
+            v.side = side == 1;
+            viewer_inspect(&v, (int)ball_x, (int)ball_y);
+            const int count = viewer_plan(&v, 200, 100, lines, &summary, NULL);
+            int outlines = 0;
+            for (int i = 0; i < count; i++) {
+                const float ends[4] = {lines[i].x0, lines[i].x1, lines[i].y0,
+                                       lines[i].y1};
+                for (int k = 0; k < 4 && lines[i].kind == LINE_ROOM; k++)
+                    assert_true(ends[k] >= 0.0f && ends[k] <= (k < 2 ? 200.0f : 100.0f));
+                outlines += lines[i].kind == LINE_ROOM;
+            }
+            assert_true(outlines > 0 && outlines < count);
+            assert_non_null(strstr(words, "the red sphere"));
+            assert_true((strstr(words, "lamp seen") != NULL) == (stage >= 4));
+        }
+}
+
+static void test_too_long_a_text_is_cut(void **state)
+{
+    (void)state;
+    char words[8];
+    text t = text_in(words, sizeof words);
+    text_add(&t, "%d", 12345);
+    assert_string_equal(words, "12345");
+    text_add(&t, "%s", "67890");
+    assert_string_equal(words, "1234567");
+    text_add(&t, "more");
+    assert_string_equal(words, "1234567");
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+    const struct CMUnitTest tests[] = {
+        TEST(test_the_first_picture_is_the_demos),
+        TEST(test_parts_of_the_picture_are_the_picture),
+        TEST(test_a_press_that_trembles_is_a_click),
+        TEST(test_a_drag_moves_the_ball_at_once_and_then_in_earnest),
+        TEST(test_elsewhere_a_drag_goes_round),
+        TEST(test_what_is_pressed_outside_of_the_picture_is_nothing),
+        TEST(test_every_stage_has_its_picture),
+        TEST(test_held_is_the_chapter_before),
+        TEST(test_other_numbers),
+        TEST(test_samples_and_bounces_have_limits),
+        TEST(test_more_samples_keep_what_there_is),
+        TEST(test_r_brings_everything_back),
+        TEST(test_the_room_can_be_taken_elsewhere),
+        TEST(test_drafts_are_as_large_as_time_allows),
+        TEST(test_without_noise),
+        TEST(test_the_plan_fits),
+        TEST(test_too_long_a_text_is_cut),
+    };
+    return cmocka_run_group_tests_name("19 viewer", tests, NULL, NULL);
+}
