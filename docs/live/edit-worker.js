@@ -156,38 +156,60 @@ function compile(code, name) {
 
 // ---- asking and judging -----------------------------------------------------------------------
 
-let runner; // the worker with the student's module
+// The worker with the student's module; runner.wasm is that. It is kept for the next text, and
+// ended only when it does not answer: to start one takes time.
+let runner, waiting; // who waits for its next answer
 
-// Its next answer; { why } if there is none within so many seconds.
-function answer(seconds, heard) {
+function stop(result) {
+    runner?.terminate();
+    runner = undefined;
+    waiting?.(result);
+}
+
+// Its answer to a message; { why } if there is none within so many seconds.
+function ask(message, seconds, heard) {
     return new Promise(resolve => {
-        const done = result => { clearTimeout(late); resolve(result); };
-        const late = setTimeout(() => done({ why: `no end within ${seconds} seconds` }),
+        const late = setTimeout(() => stop({ why: `no end within ${seconds} seconds` }),
             1000 * seconds);
-        runner.onmessage = ({ data }) => data.said ? heard(data.said) : done(data);
+        waiting = result => {
+            clearTimeout(late);
+            waiting = undefined;
+            resolve(result);
+        };
+        runner.onmessage = ({ data }) => data.said ? heard(data.said) : waiting?.(data);
         runner.onerror = event => {
             event.preventDefault();
-            done({ why: `it crashed: ${event.message}` });
+            stop({ why: `it crashed: ${event.message}` });
         };
+        runner.postMessage(message);
     });
 }
 
-// From a worker's start to its module being there is no student's time.
-async function start(wasm) {
-    runner?.terminate();
-    runner = new Worker(here('edit-run.js'));
-    const ready = answer(30, () => { });
-    runner.postMessage({ bytes: wasm });
-    await ready;
+// Give it the module: no student's time. Some browsers now and then lose a worker that starts.
+async function start(wasm, stale) {
+    for (const seconds of [1, 4, 16]) {
+        runner ??= new Worker(here('edit-run.js'));
+        const { ready } = await ask({ bytes: wasm }, seconds, () => { });
+        if (stale())
+            return;
+        if (ready) {
+            runner.wasm = wasm;
+            return;
+        }
+        stop();
+    }
+    throw new Error('the browser starts no worker');
 }
 
 // The verdict about one kind of input is printed; undefined if meanwhile there is a newer text.
-async function judgeKind(kind, routine, heard, stale) {
+async function judgeKind(wasm, kind, routine, heard, stale) {
+    if (runner?.wasm !== wasm)
+        await start(wasm, stale);
+    if (stale())
+        return undefined;
     const count = judge.page_ask(kind, 0), ins = judge.page_ins(), outs = judge.page_outs();
     const inputs = new Float32Array(judge.memory.buffer, judge.page_inputs(), count * ins).slice();
-    const waiting = answer(SECONDS, heard);
-    runner.postMessage({ routine, count, ins, outs, inputs });
-    const got = await waiting;
+    const got = await ask({ routine, count, ins, outs, inputs }, SECONDS, heard);
     if (stale())
         return undefined;
     if (got.answers) {
@@ -211,20 +233,20 @@ async function judgeAll(wasm, names, stale) {
             result.output += decoder.decode(said, { stream: true });
     };
     told = '';
+    if (waiting) // it is busy with an older text
+        stop({});
     for (let i = 0; i < judge.page_routines(); i++) {
         const name = text(judge, judge.page_name(i));
         if (!names.includes(name))
             continue;
-        await start(wasm);
-        if (stale())
-            return undefined;
         judge.page_begin(i);
         for (let k = 0, more = true; more && k < judge.page_kinds(); k++) {
             if (!judge.page_is_of(k, i))
                 continue;
-            const got = await judgeKind(k, name, heard, stale);
+            const got = await judgeKind(wasm, k, name, heard, stale);
             if (!got)
                 return undefined;
+            postMessage({ alive: true });
             result.dangerous ||= !got.answers;
             result.printed += got.printed ?? 0;
             more = got.more;
@@ -234,38 +256,39 @@ async function judgeAll(wasm, names, stale) {
             good: judge.page_end(), all: judge.page_all(),
         });
     }
-    runner.terminate();
     return { ...result, verdict: told };
 }
 
 let turn = 0;
 
-onmessage = async ({ data: { code, name } }) => {
+// Each answer has the number of its question.
+async function attempt({ number, code, name }) {
     const mine = ++turn, stale = () => mine !== turn;
     if (!await opening)
         return;
     await new Promise(resolve => setTimeout(resolve)); // is there a newer text already?
     if (stale())
         return;
-    postMessage({ begun: true });
+    postMessage({ number, begun: true });
     const from = performance.now();
     const { bytes, said, list } = compile(code, name);
-    const compiled = performance.now();
-    const times = { compile: compiled - from };
+    const times = { compile: performance.now() - from };
     if (!bytes)
-        return postMessage({ said, list, times });
+        return postMessage({ number, said, list, times });
     const names = WebAssembly.Module.exports(new WebAssembly.Module(bytes))
         .map(({ name }) => name).filter(name => name.startsWith('answer_'))
         .map(name => name.slice(7));
     if (names.length === 0)
         return postMessage({
+            number, list, times,
             said: 'replaces nothing: there is no line like #define rt_reflect my_reflect',
-            list, times,
         });
-    postMessage({ list, times, names, judging: true });
+    postMessage({ number, list, times, names, judging: true });
     const result = await judgeAll(bytes, names, stale);
     if (!result)
         return;
-    times.judge = performance.now() - compiled;
-    postMessage({ ...result, list, times, names, bytes }, [bytes.buffer]);
-};
+    postMessage({ ...result, number, list, times, names, bytes }, [bytes.buffer]);
+}
+
+onmessage = ({ data }) => attempt(data).catch(error =>
+    postMessage({ number: data.number, broken: `The judge stopped: ${error.message}` }));

@@ -39,12 +39,29 @@ function keep(routine, code) {
 
 // ---- the compiler's worker: one for all editors of a page -----------------------------------------
 
-let worker, listener, patience, ready = false;
+let worker, listener, patience, ready = false, number = 0;
 
 function end() {
+    clearTimeout(patience);
     worker?.terminate();
     worker = undefined;
     ready = false;
+}
+
+function heard(data) {
+    if (data.number !== undefined && data.number !== number)
+        return; // about a text that is no more
+    ready ||= Boolean(data.ready);
+    clearTimeout(patience);
+    if (data.begun || data.judging || data.alive)
+        patience = setTimeout(() => {
+            end();
+            listener({
+                broken: data.begun ? `does not compile: no end within ${LONGEST / 1000} seconds`
+                    : 'The judge does not answer: please try again.',
+            });
+        }, LONGEST);
+    listener(data);
 }
 
 // listen(answer) gets what comes, until somebody asks anew.
@@ -53,19 +70,10 @@ function ask(folder, question, listen) {
     listener = listen;
     if (!worker) {
         worker = new Worker(`${folder}edit-worker.js`, { type: 'module' });
-        worker.onmessage = ({ data }) => {
-            ready ||= Boolean(data.ready);
-            clearTimeout(patience);
-            if (data.begun)
-                patience = setTimeout(() => {
-                    end();
-                    listener({ broken: `does not compile: no end within ${LONGEST / 1000} seconds` });
-                }, LONGEST);
-            listener(data);
-        };
+        worker.onmessage = ({ data }) => heard(data);
         worker.onerror = event => listener({ broken: `The compiler stopped: ${event.message}` });
     }
-    worker.postMessage(question);
+    worker.postMessage({ number: ++number, ...question });
 }
 
 // ---- one editor -----------------------------------------------------------------------------------
@@ -180,6 +188,8 @@ self.rtEditor = (div, folder) => {
             status.textContent = 'compiling ...';
         } else if (data.dropped) {
             status.textContent = '';
+        } else if (data.alive) {
+            return;
         } else if (data.broken) {
             end();
             clear();
