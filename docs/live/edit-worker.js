@@ -1,5 +1,5 @@
 // The C compiler in the page, and the judge: takes a text, compiles it together with
-// tests/classroom/pupil_page.c, has it asked (edit-run.js) and judged (tests/classroom/grade_page.c).
+// tests/classroom/pupil_page.c, has it asked (edit-run.js) and judged (grade_page.c).
 import { instantiate, text } from './wasi.js';
 
 const SECONDS = 3; // for a kind of input, as in tests/classroom/grade.c
@@ -13,7 +13,7 @@ const server = self.fetch.bind(self);
 const here = name => new URL(name, import.meta.url).href;
 let loaded = 0;
 
-// ---- the compiler's files: from the browser's cache, or from the server ----------------------
+// ---- the compiler's files: from the browser's cache, or from the server ---------------
 
 // On a page that is neither https nor localhost there is no cache.
 async function store() {
@@ -31,7 +31,7 @@ async function part(name, type) {
         response = await server(url);
         if (!response.ok)
             throw new Error(`${name}: the server says ${response.status}`);
-        kept?.put(url, response.clone()).catch(() => { }); // no room: fetched again next time
+        kept?.put(url, response.clone()).catch(() => { }); // no room: it comes again
     }
     const count = new TransformStream({
         transform(chunk, out) {
@@ -75,7 +75,7 @@ const opening = (async () => {
     return true;
 })().catch(error => postMessage({ broken: `The compiler did not come: ${error.message}` }));
 
-// ---- compiling --------------------------------------------------------------------------------
+// ---- compiling ------------------------------------------------------------------------
 
 // { "a/b.h": text } as folders in folders.
 function tree(files) {
@@ -100,7 +100,7 @@ function run(args, files) {
             stdout: take, stderr: take, synchronously: true, decodeASCII: false,
         });
         return { files, said };
-    } catch (error) { // it said that it failed; or its own end: out of memory, or a mistake of its
+    } catch (error) { // it failed; or its own end: out of memory, or a mistake of its
         return { said: error.code !== undefined ? said
             : `${said}\nerror: the compiler gave up: ${error.message}` };
     }
@@ -154,7 +154,7 @@ function compile(code, name) {
     return { list, bytes: linked.files['all.wasm'] };
 }
 
-// ---- asking and judging -----------------------------------------------------------------------
+// ---- asking and judging ---------------------------------------------------------------
 
 // The worker with the student's module; runner.wasm is that. It is kept for the next text, and
 // ended only when it does not answer: to start one takes time.

@@ -8,14 +8,15 @@ import {
     drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers,
 } from '@codemirror/view';
 import { classHighlighter } from '@lezer/highlight';
+import { element } from './element.js';
 import starters from 'starters'; // { rt_hit_sphere: text }, from tests/classroom/starter
 
 const PAUSE = 600; // ms after the last key, then it is compiled
-const LONGEST = 30000; // ms for compiling: some lines of C can keep a compiler busy for ever
+const LONGEST = 30000; // ms for compiling: some C can keep a compiler busy for ever
 
 /* global MEGABYTES */ // what the compiler weighs: put here by build-edit.sh
 
-// ---- what the reader has typed is kept ----------------------------------------------------------
+// ---- what the reader has typed is kept ------------------------------------------------
 
 const place = routine => `rt.h: ${routine}`;
 
@@ -37,7 +38,7 @@ function keep(routine, code) {
     }
 }
 
-// ---- the compiler's worker: one for all editors of a page -----------------------------------------
+// ---- the compiler's worker: one for all editors of a page -----------------------------
 
 let worker, listener, patience, ready = false, number = 0;
 
@@ -76,13 +77,7 @@ function ask(folder, question, listen) {
     worker.postMessage({ number: ++number, ...question });
 }
 
-// ---- one editor -----------------------------------------------------------------------------------
-
-function element(name, properties, ...children) {
-    const made = Object.assign(document.createElement(name), properties);
-    made.append(...children);
-    return made;
-}
+// ---- one editor -----------------------------------------------------------------------
 
 // What others' programs print, without what is no text.
 const printable = text => text.replace(/[^\n\t\x20-\x7e\u00a0-\uffff]/g, '?');
@@ -236,7 +231,8 @@ self.rtEditor = (div, folder) => {
     function mark(list) {
         view.dispatch(setDiagnostics(view.state, list.filter(m => m.line > 0).map(message => {
             const { from: at, line } = position(message);
-            const from = at === line.to ? Math.max(at - 1, line.from) : at; // there must be a letter
+            // there must be a letter to be marked
+            const from = at === line.to ? Math.max(at - 1, line.from) : at;
             const word = /^\w*/.exec(line.text.slice(from - line.from))[0].length;
             return {
                 from, to: Math.min(from + Math.max(word, 1), line.to), message: message.text,

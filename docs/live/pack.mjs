@@ -1,5 +1,5 @@
-// What the compiler in the page is given, as one file: node pack.mjs SOURCE FILES... <replaces.h
-// prints it; the environment has FLAGS and OBJECTS (names). See build-edit.sh.
+// What the compiler in the page is given, as one file: node pack.mjs SOURCE FILES...
+// <replaces.h prints it; the environment has FLAGS and OBJECTS (names). See build-edit.sh.
 import { readFileSync } from 'node:fs';
 
 const words = text => (text ?? '').split(/\s+/).filter(Boolean);

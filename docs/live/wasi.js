@@ -43,7 +43,7 @@ export function instantiate(module, say) {
             const bytes = new Uint8Array(memory.buffer, at, 24);
             bytes.fill(0);
             bytes[0] = channel === 3 ? FOLDER : TERMINAL;
-            bytes.fill(channel === 3 ? 255 : 0, 8); // all rights, or none: it cannot be searched
+            bytes.fill(channel === 3 ? 255 : 0, 8); // all rights, or none
             return GOOD;
         },
         fd_write(channel, list, count, at) {
@@ -65,8 +65,8 @@ export function instantiate(module, say) {
         },
         fd_seek: () => CANNOT_SEEK,
         fd_close: () => GOOD,
-        // There is one folder, "/", on channel 3: without any, the C library would answer by itself that a
-        // file is not there, and nobody would know that it was asked.
+        // There is one folder, "/", on channel 3: without any, the C library would answer by
+        // itself that a file is not there, and nobody would know that it was asked.
         fd_prestat_get(channel, at) {
             if (channel !== 3)
                 return NO_SUCH_CHANNEL;

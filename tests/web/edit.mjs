@@ -37,7 +37,7 @@ const packages = createRequire(resolve(`${build}/web/package.json`));
 const puppeteer = packages('puppeteer-core');
 const axe = readFileSync(packages.resolve('axe-core/axe.min.js'), 'utf8');
 
-// ---- a page, a server, a browser ------------------------------------------------------------
+// ---- a page, a server, a browser ------------------------------------------------------
 
 const html = (routines, base) => `<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width"><title>Test</title>
@@ -152,7 +152,7 @@ async function saved(page, name) {
     return page.evaluate(() => window.saved);
 }
 
-// ---- texts to try -----------------------------------------------------------------------------
+// ---- texts to try ---------------------------------------------------------------------
 
 const submission = name => readFileSync(`tests/classroom/submissions/${name}`, 'utf8');
 const demo = readFileSync('demos/demo01_sphere.c', 'utf8');
@@ -170,7 +170,7 @@ static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal)
 }
 `;
 
-// ---- the tests --------------------------------------------------------------------------------
+// ---- the tests ------------------------------------------------------------------------
 
 const tests = [];
 const test = (name, act) => tests.push([name, act]);
@@ -479,7 +479,7 @@ test('for everybody: axe-core, light and dark, narrow and wide', async () => {
         }
 });
 
-// ---- all of it --------------------------------------------------------------------------------
+// ---- all of it ------------------------------------------------------------------------
 
 if (pictures)
     mkdirSync(pictures, { recursive: true });
