@@ -156,8 +156,8 @@ function compile(code, name) {
 
 // ---- asking and judging ---------------------------------------------------------------
 
-// The worker with the student's module; runner.wasm is that. It is kept for the next text, and
-// ended only when it does not answer: to start one takes time.
+// The worker with the student's module; runner.wasm is that. It is kept for the next
+// text, and ended only when it does not answer: to start one takes time.
 let runner, waiting; // who waits for its next answer
 
 function stop(result) {
@@ -185,7 +185,8 @@ function ask(message, seconds, heard) {
     });
 }
 
-// Give it the module: no student's time. Some browsers now and then lose a worker that starts.
+// Give it the module: no student's time. Some browsers now and then lose a worker that
+// starts.
 async function start(wasm, stale) {
     for (const seconds of [1, 4, 16]) {
         runner ??= new Worker(here('edit-run.js'));
@@ -201,7 +202,8 @@ async function start(wasm, stale) {
     throw new Error('the browser starts no worker');
 }
 
-// The verdict about one kind of input is printed; undefined if meanwhile there is a newer text.
+// The verdict about one kind of input is printed; undefined if meanwhile there is a newer
+// text.
 async function judgeKind(wasm, kind, routine, heard, stale) {
     if (runner?.wasm !== wasm)
         await start(wasm, stale);

@@ -1,8 +1,8 @@
 // "Write it yourself": fills each
 //     <div class="edit" data-routines="rt_hit_sphere rt_camera_ray" data-live="live-demo01">
-// What is heavy, the editor and the compiler, comes when it is wanted. When a text compiled, and
-// ended for all inputs, the element data-live gets the event "mine" with detail
-// { bytes: the module, routine: "rt_hit_sphere" }.
+// What is heavy, the editor and the compiler, comes when it is wanted. When a text
+// compiled, and ended for all inputs, the element data-live gets the event "mine" with
+// detail { bytes: the module, routine: "rt_hit_sphere" }.
 import { element } from './element.js';
 
 /* global MEGABYTES */ // how much that is, put here by build-edit.sh

@@ -1,6 +1,6 @@
-// Of the files that come with the compiler those that C for WebAssembly needs, 2 of 30 MB:
-// node trim.mjs ALL.tar PART.tar. Both are: a block of 512 bytes for each file's name and
-// size, then the file in whole blocks.
+// Of the files that come with the compiler those that C for WebAssembly needs, 2 of 30
+// MB: node trim.mjs ALL.tar PART.tar. Both are: a block of 512 bytes for each file's name
+// and size, then the file in whole blocks.
 import { readFileSync, writeFileSync } from 'node:fs';
 
 const wanted = [

@@ -1,7 +1,8 @@
-// "Write it yourself" in the pages of the site, in a real browser: node tests/web/edit.mjs
-// [--pictures FOLDER] [NAME...]: all tests, or those whose names contain a NAME. To be run at the
-// top of the repository; it needs chromium and the packages of docs/live/package.json, and makes
-// what it tests with docs/live/build-edit.sh. No network.
+// "Write it yourself" in the pages of the site, in a real browser: node
+// tests/web/edit.mjs [--pictures FOLDER] [NAME...]: all tests, or those whose names
+// contain a NAME. To be run at the top of the repository; it needs chromium and the
+// packages of docs/live/package.json, and makes what it tests with
+// docs/live/build-edit.sh. No network.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import {
@@ -395,8 +396,8 @@ test('by the keys alone', async () => {
 
 test('the marks of make grade', async () => {
     const all = 'tests/classroom/submissions';
-    // The inputs depend on the compiler of grade.c, for the order in which a function's arguments
-    // are worked out does; so it is the one that made grade.wasm.
+    // The inputs depend on the compiler of grade.c, for the order in which a function's
+    // arguments are worked out does; so it is the one that made grade.wasm.
     const native = spawnSync('tests/classroom/run', ['grade', all], {
         env: { ...process.env, CC: 'clang', OUT: `${build}/web/marks.csv`, BUILD: `${build}/web` },
         encoding: 'utf8',
