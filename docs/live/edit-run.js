@@ -1,5 +1,5 @@
-// Asks a student's module, tests/classroom/pupil_page.c, in a worker of its own: who waits for
-// the answers (edit-worker.js) ends the worker if they do not come.
+// Asks a student's module, tests/classroom/pupil_page.c, in a worker of its own: who
+// waits for the answers (edit-worker.js) ends the worker if they do not come.
 import { Ended, instantiate } from './wasi.js';
 
 const SHOWN = 4000; // bytes of what a kind of input prints

@@ -1,5 +1,5 @@
 // The C compiler in the page, and the judge: takes a text, compiles it together with
-// tests/classroom/pupil_page.c, has it asked (edit-run.js) and judged (tests/classroom/grade_page.c).
+// tests/classroom/pupil_page.c, has it asked (edit-run.js) and judged (grade_page.c).
 import { instantiate, text } from './wasi.js';
 
 const SECONDS = 3; // for a kind of input, as in tests/classroom/grade.c
@@ -13,7 +13,7 @@ const server = self.fetch.bind(self);
 const here = name => new URL(name, import.meta.url).href;
 let loaded = 0;
 
-// ---- the compiler's files: from the browser's cache, or from the server ----------------------
+// ---- the compiler's files: from the browser's cache, or from the server ---------------
 
 // On a page that is neither https nor localhost there is no cache.
 async function store() {
@@ -31,7 +31,7 @@ async function part(name, type) {
         response = await server(url);
         if (!response.ok)
             throw new Error(`${name}: the server says ${response.status}`);
-        kept?.put(url, response.clone()).catch(() => { }); // no room: fetched again next time
+        kept?.put(url, response.clone()).catch(() => { }); // no room: it comes again
     }
     const count = new TransformStream({
         transform(chunk, out) {
@@ -75,7 +75,7 @@ const opening = (async () => {
     return true;
 })().catch(error => postMessage({ broken: `The compiler did not come: ${error.message}` }));
 
-// ---- compiling --------------------------------------------------------------------------------
+// ---- compiling ------------------------------------------------------------------------
 
 // { "a/b.h": text } as folders in folders.
 function tree(files) {
@@ -100,7 +100,7 @@ function run(args, files) {
             stdout: take, stderr: take, synchronously: true, decodeASCII: false,
         });
         return { files, said };
-    } catch (error) { // it said that it failed; or its own end: out of memory, or a mistake of its
+    } catch (error) { // it failed; or its own end: out of memory, or a mistake of its
         return { said: error.code !== undefined ? said
             : `${said}\nerror: the compiler gave up: ${error.message}` };
     }
@@ -154,40 +154,64 @@ function compile(code, name) {
     return { list, bytes: linked.files['all.wasm'] };
 }
 
-// ---- asking and judging -----------------------------------------------------------------------
+// ---- asking and judging ---------------------------------------------------------------
 
-let runner; // the worker with the student's module
+// The worker with the student's module; runner.wasm is that. It is kept for the next
+// text, and ended only when it does not answer: to start one takes time.
+let runner, waiting; // who waits for its next answer
 
-// Its next answer; { why } if there is none within so many seconds.
-function answer(seconds, heard) {
+function stop(result) {
+    runner?.terminate();
+    runner = undefined;
+    waiting?.(result);
+}
+
+// Its answer to a message; { why } if there is none within so many seconds.
+function ask(message, seconds, heard) {
     return new Promise(resolve => {
-        const done = result => { clearTimeout(late); resolve(result); };
-        const late = setTimeout(() => done({ why: `no end within ${seconds} seconds` }),
+        const late = setTimeout(() => stop({ why: `no end within ${seconds} seconds` }),
             1000 * seconds);
-        runner.onmessage = ({ data }) => data.said ? heard(data.said) : done(data);
+        waiting = result => {
+            clearTimeout(late);
+            waiting = undefined;
+            resolve(result);
+        };
+        runner.onmessage = ({ data }) => data.said ? heard(data.said) : waiting?.(data);
         runner.onerror = event => {
             event.preventDefault();
-            done({ why: `it crashed: ${event.message}` });
+            stop({ why: `it crashed: ${event.message}` });
         };
+        runner.postMessage(message);
     });
 }
 
-// From a worker's start to its module being there is no student's time.
-async function start(wasm) {
-    runner?.terminate();
-    runner = new Worker(here('edit-run.js'));
-    const ready = answer(30, () => { });
-    runner.postMessage({ bytes: wasm });
-    await ready;
+// Give it the module: no student's time. Some browsers now and then lose a worker that
+// starts.
+async function start(wasm, stale) {
+    for (const seconds of [1, 4, 16]) {
+        runner ??= new Worker(here('edit-run.js'));
+        const { ready } = await ask({ bytes: wasm }, seconds, () => { });
+        if (stale())
+            return;
+        if (ready) {
+            runner.wasm = wasm;
+            return;
+        }
+        stop();
+    }
+    throw new Error('the browser starts no worker');
 }
 
-// The verdict about one kind of input is printed; undefined if meanwhile there is a newer text.
-async function judgeKind(kind, routine, heard, stale) {
+// The verdict about one kind of input is printed; undefined if meanwhile there is a newer
+// text.
+async function judgeKind(wasm, kind, routine, heard, stale) {
+    if (runner?.wasm !== wasm)
+        await start(wasm, stale);
+    if (stale())
+        return undefined;
     const count = judge.page_ask(kind, 0), ins = judge.page_ins(), outs = judge.page_outs();
     const inputs = new Float32Array(judge.memory.buffer, judge.page_inputs(), count * ins).slice();
-    const waiting = answer(SECONDS, heard);
-    runner.postMessage({ routine, count, ins, outs, inputs });
-    const got = await waiting;
+    const got = await ask({ routine, count, ins, outs, inputs }, SECONDS, heard);
     if (stale())
         return undefined;
     if (got.answers) {
@@ -211,20 +235,20 @@ async function judgeAll(wasm, names, stale) {
             result.output += decoder.decode(said, { stream: true });
     };
     told = '';
+    if (waiting) // it is busy with an older text
+        stop({});
     for (let i = 0; i < judge.page_routines(); i++) {
         const name = text(judge, judge.page_name(i));
         if (!names.includes(name))
             continue;
-        await start(wasm);
-        if (stale())
-            return undefined;
         judge.page_begin(i);
         for (let k = 0, more = true; more && k < judge.page_kinds(); k++) {
             if (!judge.page_is_of(k, i))
                 continue;
-            const got = await judgeKind(k, name, heard, stale);
+            const got = await judgeKind(wasm, k, name, heard, stale);
             if (!got)
                 return undefined;
+            postMessage({ alive: true });
             result.dangerous ||= !got.answers;
             result.printed += got.printed ?? 0;
             more = got.more;
@@ -234,38 +258,39 @@ async function judgeAll(wasm, names, stale) {
             good: judge.page_end(), all: judge.page_all(),
         });
     }
-    runner.terminate();
     return { ...result, verdict: told };
 }
 
 let turn = 0;
 
-onmessage = async ({ data: { code, name } }) => {
+// Each answer has the number of its question.
+async function attempt({ number, code, name }) {
     const mine = ++turn, stale = () => mine !== turn;
     if (!await opening)
         return;
     await new Promise(resolve => setTimeout(resolve)); // is there a newer text already?
     if (stale())
         return;
-    postMessage({ begun: true });
+    postMessage({ number, begun: true });
     const from = performance.now();
     const { bytes, said, list } = compile(code, name);
-    const compiled = performance.now();
-    const times = { compile: compiled - from };
+    const times = { compile: performance.now() - from };
     if (!bytes)
-        return postMessage({ said, list, times });
+        return postMessage({ number, said, list, times });
     const names = WebAssembly.Module.exports(new WebAssembly.Module(bytes))
         .map(({ name }) => name).filter(name => name.startsWith('answer_'))
         .map(name => name.slice(7));
     if (names.length === 0)
         return postMessage({
+            number, list, times,
             said: 'replaces nothing: there is no line like #define rt_reflect my_reflect',
-            list, times,
         });
-    postMessage({ list, times, names, judging: true });
+    postMessage({ number, list, times, names, judging: true });
     const result = await judgeAll(bytes, names, stale);
     if (!result)
         return;
-    times.judge = performance.now() - compiled;
-    postMessage({ ...result, list, times, names, bytes }, [bytes.buffer]);
-};
+    postMessage({ ...result, number, list, times, names, bytes }, [bytes.buffer]);
+}
+
+onmessage = ({ data }) => attempt(data).catch(error =>
+    postMessage({ number: data.number, broken: `The judge stopped: ${error.message}` }));

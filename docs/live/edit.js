@@ -1,15 +1,14 @@
-// "Write it yourself": fills each <div class="edit" data-routines="rt_hit_sphere rt_camera_ray"
-// data-live="live-demo01">. What is heavy, the editor and the compiler, comes when it is wanted.
+// "Write it yourself": fills each
+//     <div class="edit" data-routines="rt_hit_sphere rt_camera_ray" data-live="live-demo01">
+// What is heavy, the editor and the compiler, comes when it is wanted. When a text
+// compiled, and ended for all inputs, the element data-live gets the event "mine" with
+// detail { bytes: the module, routine: "rt_hit_sphere" }.
+import { element } from './element.js';
+
 /* global MEGABYTES */ // how much that is, put here by build-edit.sh
 
 const folder = new URL('.', document.currentScript.src).href;
 const enough = self.Worker && self.WebAssembly && self.DecompressionStream;
-
-function element(name, properties, ...children) {
-    const made = Object.assign(document.createElement(name), properties);
-    made.append(...children);
-    return made;
-}
 
 // The editor is a script of its own; one for all that are on the page.
 let script;

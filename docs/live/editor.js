@@ -8,14 +8,15 @@ import {
     drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers,
 } from '@codemirror/view';
 import { classHighlighter } from '@lezer/highlight';
+import { element } from './element.js';
 import starters from 'starters'; // { rt_hit_sphere: text }, from tests/classroom/starter
 
 const PAUSE = 600; // ms after the last key, then it is compiled
-const LONGEST = 30000; // ms for compiling: some lines of C can keep a compiler busy for ever
+const LONGEST = 30000; // ms for compiling: some C can keep a compiler busy for ever
 
 /* global MEGABYTES */ // what the compiler weighs: put here by build-edit.sh
 
-// ---- what the reader has typed is kept ----------------------------------------------------------
+// ---- what the reader has typed is kept ------------------------------------------------
 
 const place = routine => `rt.h: ${routine}`;
 
@@ -37,14 +38,31 @@ function keep(routine, code) {
     }
 }
 
-// ---- the compiler's worker: one for all editors of a page -----------------------------------------
+// ---- the compiler's worker: one for all editors of a page -----------------------------
 
-let worker, listener, patience, ready = false;
+let worker, listener, patience, ready = false, number = 0;
 
 function end() {
+    clearTimeout(patience);
     worker?.terminate();
     worker = undefined;
     ready = false;
+}
+
+function heard(data) {
+    if (data.number !== undefined && data.number !== number)
+        return; // about a text that is no more
+    ready ||= Boolean(data.ready);
+    clearTimeout(patience);
+    if (data.begun || data.judging || data.alive)
+        patience = setTimeout(() => {
+            end();
+            listener({
+                broken: data.begun ? `does not compile: no end within ${LONGEST / 1000} seconds`
+                    : 'The judge does not answer: please try again.',
+            });
+        }, LONGEST);
+    listener(data);
 }
 
 // listen(answer) gets what comes, until somebody asks anew.
@@ -53,28 +71,13 @@ function ask(folder, question, listen) {
     listener = listen;
     if (!worker) {
         worker = new Worker(`${folder}edit-worker.js`, { type: 'module' });
-        worker.onmessage = ({ data }) => {
-            ready ||= Boolean(data.ready);
-            clearTimeout(patience);
-            if (data.begun)
-                patience = setTimeout(() => {
-                    end();
-                    listener({ broken: `does not compile: no end within ${LONGEST / 1000} seconds` });
-                }, LONGEST);
-            listener(data);
-        };
+        worker.onmessage = ({ data }) => heard(data);
         worker.onerror = event => listener({ broken: `The compiler stopped: ${event.message}` });
     }
-    worker.postMessage(question);
+    worker.postMessage({ number: ++number, ...question });
 }
 
-// ---- one editor -----------------------------------------------------------------------------------
-
-function element(name, properties, ...children) {
-    const made = Object.assign(document.createElement(name), properties);
-    made.append(...children);
-    return made;
-}
+// ---- one editor -----------------------------------------------------------------------
 
 // What others' programs print, without what is no text.
 const printable = text => text.replace(/[^\n\t\x20-\x7e\u00a0-\uffff]/g, '?');
@@ -180,6 +183,8 @@ self.rtEditor = (div, folder) => {
             status.textContent = 'compiling ...';
         } else if (data.dropped) {
             status.textContent = '';
+        } else if (data.alive) {
+            return;
         } else if (data.broken) {
             end();
             clear();
@@ -226,7 +231,8 @@ self.rtEditor = (div, folder) => {
     function mark(list) {
         view.dispatch(setDiagnostics(view.state, list.filter(m => m.line > 0).map(message => {
             const { from: at, line } = position(message);
-            const from = at === line.to ? Math.max(at - 1, line.from) : at; // there must be a letter
+            // there must be a letter to be marked
+            const from = at === line.to ? Math.max(at - 1, line.from) : at;
             const word = /^\w*/.exec(line.text.slice(from - line.from))[0].length;
             return {
                 from, to: Math.min(from + Math.max(word, 1), line.to), message: message.text,

@@ -1,11 +1,12 @@
-// Of the files that come with the compiler those that C for WebAssembly needs, 2 of 30 MB: node
-// trim.mjs ALL.tar PART.tar. Both ends are tar: a block of 512 bytes for each file's name and
-// size, then the file in whole blocks.
+// Of the files that come with the compiler those that C for WebAssembly needs, 2 of 30
+// MB: node trim.mjs ALL.tar PART.tar. Both are: a block of 512 bytes for each file's name
+// and size, then the file in whole blocks.
 import { readFileSync, writeFileSync } from 'node:fs';
 
 const wanted = [
     /^(include|lib)$/, /^include\/wasm32-wasip1(?!\/c\+\+)/, // the C library
-    /^include\/(__)?(std|float|limits|iso646|inttypes|tgmath|wasm_simd128)\w*\.h$/, // clang's
+    // clang's own
+    /^include\/(__)?(std|float|limits|iso646|inttypes|tgmath|wasm_simd128)\w*\.h$/,
     /^lib\/wasm32-wasip1(\/libc\.a|\/crt1-reactor\.o)?$/,
     /^lib\/wasm32-unknown-wasip1(\/libclang_rt\.builtins\.a)?$/,
 ];

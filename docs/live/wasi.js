@@ -1,7 +1,7 @@
-// The system that a WebAssembly module of C meets here: it may compute, ask for the time and
-// print. For files, other programs and the network it is ended, as in tests/classroom/sandbox.h.
-// What the C library does not have here (fork, kill, getppid, signal.h) does not compile; the
-// marks are the same.
+// The system that a WebAssembly module of C meets here: it may compute, ask for the time
+// and print. For files, other programs and the network it is ended, as in
+// tests/classroom/sandbox.h. What the C library does not have here (fork, kill, getppid,
+// signal.h) does not compile; the marks are the same.
 
 export class Ended extends Error {} // the message says why
 
@@ -43,7 +43,7 @@ export function instantiate(module, say) {
             const bytes = new Uint8Array(memory.buffer, at, 24);
             bytes.fill(0);
             bytes[0] = channel === 3 ? FOLDER : TERMINAL;
-            bytes.fill(channel === 3 ? 255 : 0, 8); // all rights, or none: it cannot be searched
+            bytes.fill(channel === 3 ? 255 : 0, 8); // all rights, or none
             return GOOD;
         },
         fd_write(channel, list, count, at) {
@@ -65,8 +65,8 @@ export function instantiate(module, say) {
         },
         fd_seek: () => CANNOT_SEEK,
         fd_close: () => GOOD,
-        // There is one folder, "/", on channel 3: without any, the C library would answer by itself that a
-        // file is not there, and nobody would know that it was asked.
+        // There is one folder, "/", on channel 3: without any, the C library would answer
+        // by itself that a file is not there, and nobody would know that it was asked.
         fd_prestat_get(channel, at) {
             if (channel !== 3)
                 return NO_SUCH_CHANNEL;

@@ -1,7 +1,8 @@
-// "Write it yourself" in the pages of the site, in a real browser: node tests/web/edit.mjs
-// [--pictures FOLDER] [NAME...]: all tests, or those whose names contain a NAME. To be run at the
-// top of the repository; it needs chromium and the packages of docs/live/package.json, and makes
-// what it tests with docs/live/build-edit.sh. No network.
+// "Write it yourself" in the pages of the site, in a real browser: node
+// tests/web/edit.mjs [--pictures FOLDER] [NAME...]: all tests, or those whose names
+// contain a NAME. To be run at the top of the repository; it needs chromium and the
+// packages of docs/live/package.json, and makes what it tests with
+// docs/live/build-edit.sh. No network.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import {
@@ -37,7 +38,7 @@ const packages = createRequire(resolve(`${build}/web/package.json`));
 const puppeteer = packages('puppeteer-core');
 const axe = readFileSync(packages.resolve('axe-core/axe.min.js'), 'utf8');
 
-// ---- a page, a server, a browser ------------------------------------------------------------
+// ---- a page, a server, a browser ------------------------------------------------------
 
 const html = (routines, base) => `<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width"><title>Test</title>
@@ -152,7 +153,7 @@ async function saved(page, name) {
     return page.evaluate(() => window.saved);
 }
 
-// ---- texts to try -----------------------------------------------------------------------------
+// ---- texts to try ---------------------------------------------------------------------
 
 const submission = name => readFileSync(`tests/classroom/submissions/${name}`, 'utf8');
 const demo = readFileSync('demos/demo01_sphere.c', 'utf8');
@@ -170,7 +171,7 @@ static inline rt_vec3 my_reflect(rt_vec3 incident, rt_vec3 normal)
 }
 `;
 
-// ---- the tests --------------------------------------------------------------------------------
+// ---- the tests ------------------------------------------------------------------------
 
 const tests = [];
 const test = (name, act) => tests.push([name, act]);
@@ -395,8 +396,8 @@ test('by the keys alone', async () => {
 
 test('the marks of make grade', async () => {
     const all = 'tests/classroom/submissions';
-    // The inputs depend on the compiler of grade.c, for the order in which a function's arguments
-    // are worked out does; so it is the one that made grade.wasm.
+    // The inputs depend on the compiler of grade.c, for the order in which a function's
+    // arguments are worked out does; so it is the one that made grade.wasm.
     const native = spawnSync('tests/classroom/run', ['grade', all], {
         env: { ...process.env, CC: 'clang', OUT: `${build}/web/marks.csv`, BUILD: `${build}/web` },
         encoding: 'utf8',
@@ -479,7 +480,7 @@ test('for everybody: axe-core, light and dark, narrow and wide', async () => {
         }
 });
 
-// ---- all of it --------------------------------------------------------------------------------
+// ---- all of it ------------------------------------------------------------------------
 
 if (pictures)
     mkdirSync(pictures, { recursive: true });
