@@ -137,6 +137,7 @@ async function bring_to_life(root, name, encoded) {
             finished_samples = 0;
             finished_error = -1;
             report.done = 0;
+            report.other_done = false;
             report.started = performance.now();
             chart.begin();
         }

@@ -23,18 +23,22 @@ const packages = createRequire(resolve(`${build}/web/package.json`));
 const puppeteer = packages('puppeteer-core');
 const axe = readFileSync(packages.resolve('axe-core/axe.min.js'), 'utf8');
 
-// A server for a folder; counts what is fetched: paths, and how many bytes.
+// A server for a folder; counts what is fetched: paths, and how many bytes. instead(url, response) may
+// answer in its place, and then returns true.
 const kinds = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm',
     '.json': 'application/json', '.png': 'image/png', '.svg': 'image/svg+xml' };
-export async function serve(folder) {
+export async function serve(folder, instead = () => false) {
     const fetched = [];
     const server = createServer((request, response) => {
-        const path = join(folder, decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
+        const url = new URL(request.url, 'http://localhost');
+        const path = join(folder, decodeURIComponent(url.pathname));
+        if (instead(url, response))
+            return;
         if (!existsSync(path) || !statSync(path).isFile()) {
             response.statusCode = 404;
             return response.end();
         }
-        fetched.push([request.url, statSync(path).size]);
+        fetched.push([url.pathname, statSync(path).size]);
         response.setHeader('content-type', kinds[extname(path)] ?? 'application/octet-stream');
         response.end(readFileSync(path));
     });
@@ -50,8 +54,8 @@ export const browser = await puppeteer.launch({
 
 // What no page may do: complain, or ask another machine.
 export const complaints = [];
-export async function newPage({ width = 1100, height = 900, features = [], before, touch = false } = {}) {
-    const page = await browser.newPage();
+export async function newPage({ width = 1100, height = 900, features = [], before, touch = false, context = browser } = {}) {
+    const page = await context.newPage();
     await page.setViewport({ width, height, hasTouch: touch });
     if (features.length > 0)
         await page.emulateMediaFeatures(features);
@@ -78,11 +82,14 @@ export async function run(tests, wanted) {
         if (wanted.length > 0 && !wanted.some(word => name.includes(word)))
             continue;
         complaints.length = 0;
+        const from = performance.now();
         try {
             await test();
             if (complaints.length > 0)
                 throw new Error(`the page complains: ${complaints.join('; ')}`);
             good++;
+            if (process.env.TIMES)
+                console.log(`${((performance.now() - from) / 1000).toFixed(1)} s: ${name}`);
         } catch (error) {
             bad++;
             console.log(`${name}: ${error.stack}`);
@@ -93,5 +100,5 @@ export async function run(tests, wanted) {
     await browser.close();
     rmSync(profile, { recursive: true, force: true });
     console.log(`pages: ${good} passed, ${bad} failed`);
-    process.exitCode = bad > 0 ? 1 : 0;
+    process.exit(bad > 0 ? 1 : 0);
 }
