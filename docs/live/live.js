@@ -37,7 +37,7 @@ async function bring_to_life(root, name, encoded) {
     /* Its state beside the viewer's. */
     const images = [new ImageData(W, H), new ImageData(W, H)]; /* the picture, and the one to compare with */
     let workers = [], run = 0, running = false, dirty = false, number = 0, latest = 0, moved_at = 0;
-    let results = [[], []], divide = 0, thing = 0, drawn_by = 'chapter', mine = null, alarm = 0, visible = false, stale = true;
+    let results = [[], []], divide = 0, thing = 0, drawn_by = 'chapter', mine = null, visible = false, stale = true;
     let finished_samples = 0, finishing = false, finished_error = -1, timer = 0;
     const report = {first: 0, moves: [], drafts: [], done: 0, workers: 0}; /* for tests and the curious */
 
@@ -50,7 +50,7 @@ async function bring_to_life(root, name, encoded) {
 
     /* So many. Where there are none to be had, the page works itself, and answers a little later. */
     function hire(count) {
-        workers.forEach(w => w.end());
+        workers.forEach(w => { clearTimeout(w.alarm); w.end(); });
         workers = [];
         report.workers = count = Math.max(1, count);
         let url = null;
@@ -83,13 +83,19 @@ async function bring_to_life(root, name, encoded) {
     const tell_all = m => workers.forEach(w => w.tell(m));
 
     /* Code of the reader's may run without end: then other workers go on without it. */
-    function watch() {
-        clearTimeout(alarm);
-        if (drawn_by === 'mine')
-            alarm = setTimeout(() => give_up('no end after 3 s: stopped'), 3000);
+    function watch(w) {
+        clearTimeout(w.alarm);
+        w.owes = drawn_by === 'mine';
+        if (w.owes)
+            w.alarm = setTimeout(() => give_up('no end after 3 s: stopped'), 3000);
+    }
+    function heard(w, all) {
+        clearTimeout(w.alarm);
+        if (w.owes && !all)
+            watch(w);
+        w.owes &&= !all;
     }
     function give_up(why) {
-        clearTimeout(alarm);
         mine = null;
         drawn_by = 'chapter';
         root.classList.remove('mine');
@@ -126,7 +132,7 @@ async function bring_to_life(root, name, encoded) {
             return;
         w.busy = true;
         w.tell({do: 'draft', number: ++number, name: drawn_by, wish: wish()});
-        watch();
+        watch(w);
     }
     function refine(anew) {
         running = true;
@@ -142,7 +148,7 @@ async function bring_to_life(root, name, encoded) {
             chart.begin();
         }
         tell_all({do: 'refine', run, anew, name: drawn_by, other: 0, to_other: 0, samples: ex.page_samples(), wish: wish()});
-        watch();
+        workers.forEach(watch);
     }
     /* The one to compare with: only when it is looked at, and the picture itself is done. */
     function refine_other() {
@@ -173,7 +179,7 @@ async function bring_to_life(root, name, encoded) {
     function listen(m, w) {
         if (m.failed !== undefined)
             return drawn_by === 'mine' ? give_up('crashed: ' + m.failed) : say(`${t('This picture cannot move here')}: ${m.failed}`);
-        clearTimeout(alarm);
+        heard(w, m.draft !== undefined || (m.done && m.run === run && m.other === 0));
         if (m.draft !== undefined)
             return show_draft(m, w);
         if (m.encoded) {
@@ -191,8 +197,6 @@ async function bring_to_life(root, name, encoded) {
             m.parts.forEach((part, i) => images[0].data.set(m.pixels[i], 4 * 4096 * part));
         results[m.other][m.k] = m;
         show_result(m.other);
-        if (!m.done && drawn_by === 'mine')
-            watch();
     }
     function is_noisy() { return compares() === NOISY; }
     function show_draft(m, w) {
