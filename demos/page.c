@@ -71,16 +71,6 @@ int EXPORT(page_start)(int width, int height)
     return 0;
 }
 
-const char *EXPORT(page_title)(void)
-{
-    return the_demo->title;
-}
-
-int EXPORT(page_part_count)(void)
-{
-    return part_count;
-}
-
 /* -------------------------------------------------------------------------------------
  * What is to be seen
  * ------------------------------------------------------------------------------------- */
@@ -210,6 +200,12 @@ void EXPORT(page_release)(void)
     viewer_release(&v);
 }
 
+/* It is no click, and no drag any more. */
+void EXPORT(page_let_go)(void)
+{
+    v.button = BUTTON_NONE;
+}
+
 void EXPORT(page_wheel)(float notches)
 {
     viewer_wheel(&v, notches);
@@ -220,19 +216,9 @@ void EXPORT(page_key)(int key)
     viewer_key(&v, key, false);
 }
 
-void EXPORT(page_key_up)(int key)
-{
-    viewer_key_up(&v, key);
-}
-
 int EXPORT(page_pick)(float x, float y)
 {
     return the_demo->live->pick(v.stage, &v.view, x, y);
-}
-
-const char *EXPORT(page_name)(int thing)
-{
-    return the_demo->live->name(thing);
 }
 
 /* Move a thing without a pointer; 0 is the camera. */
@@ -255,10 +241,12 @@ double EXPORT(page_rests)(void)
     return v.rests;
 }
 
-/* Before a draft: the pictures so far are void. */
+/* Before a draft: the pictures so far are void. Those of the workers; here there are none. */
 void EXPORT(page_begin_anew)(void)
 {
-    viewer_begin_anew(&v);
+    rt_image_clear(&v.image);
+    rt_image_clear(&v.clean);
+    v.changed = false;
 }
 
 void EXPORT(page_draft_took)(double seconds)
@@ -356,7 +344,9 @@ const unsigned char *EXPORT(page_refine)(int number, int other)
 /* The part, encoded once more: gamma has changed. */
 const unsigned char *EXPORT(page_encode)(int number, int other)
 {
-    viewer_encode(&v, other != 0, &parts[other][number].image, 4, bytes);
+    rt_image *image = &parts[other][number].image;
+    if (image->pixels || allot(image, number))
+        viewer_encode(&v, other != 0, image, 4, bytes);
     return bytes;
 }
 
@@ -478,14 +468,6 @@ const char *EXPORT(page_kind)(int kind)
 const char *EXPORT(page_comparison)(int comparison)
 {
     return viewer_comparison_name((viewer_comparison)comparison);
-}
-
-/* This view as C code. */
-const char *EXPORT(page_print)(void)
-{
-    text out = text_in(words, sizeof words);
-    the_demo->live->print(&out);
-    return words;
 }
 
 void EXPORT(page_inspect)(int x, int y, int sample)

@@ -192,6 +192,8 @@ self.rtEditor = (div, folder) => {
         } else {
             clear();
             list(data.list);
+            if (data.said)
+                live?.dispatchEvent(new CustomEvent('mine-old'));
             const seconds = `compiled in ${(data.times.compile / 1000).toFixed(1)} s`;
             status.textContent = data.said ? `${name}: ${data.said}`
                 : data.judging ? `${seconds}, being asked ...` : seconds;
@@ -214,10 +216,9 @@ self.rtEditor = (div, folder) => {
             printed.textContent = printable(prints) +
                 (more > 0 ? `\n... and ${plural(more, 'byte')} more` : '');
         }
-        if (!dangerous)
-            live?.dispatchEvent(new CustomEvent('mine', {
-                detail: { bytes, routine: names.includes(routine) ? routine : names[0] },
-            }));
+        live?.dispatchEvent(dangerous ? new CustomEvent('mine-old') : new CustomEvent('mine', {
+            detail: { bytes, routine: names.includes(routine) ? routine : names[0] },
+        }));
     }
 
     // ---- errors, in the lines and below ----
@@ -257,6 +258,9 @@ self.rtEditor = (div, folder) => {
         }));
     }
 
+    live?.addEventListener('mine-failed', ({ detail }) => {
+        status.textContent += `. The picture by it: ${detail}`;
+    });
     choice.addEventListener('change', () => show(choice.value));
     show(routine);
     view.focus();

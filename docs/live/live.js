@@ -9,6 +9,7 @@
 const NOTHING = 0, DRAFT = 1, REST = 2, REFINE = 3; /* as viewer_task */
 const BEFORE = 0, ONE_SAMPLE = 1, BY_RT_H = 2, OTHER_NUMBERS = 3, NOISY = 4; /* as viewer_comparison */
 const KEYS = {ArrowLeft: 256, ArrowRight: 257, ArrowUp: 258, ArrowDown: 259, PageUp: 260, PageDown: 261};
+const PART = 4096; /* pixels, as in page.c */
 const THINGS = ['the camera', 'the ball', 'the mirror', 'the cube', 'the lamp'];
 
 /* What each chapter has of its own. */
@@ -32,19 +33,23 @@ async function bring_to_life(root, name, encoded) {
     const begun = performance.now(), seconds = () => performance.now() / 1000;
     const {ex, text, bytes: memory, wish} = open(await WebAssembly.compile(bytes), W, H);
     const calm = matchMedia('(prefers-reduced-motion: reduce)');
-    const first_stage = ex.page_stage();
 
     /* Its state beside the viewer's. */
     const images = [new ImageData(W, H), new ImageData(W, H)]; /* the picture, and the one to compare with */
-    let workers = [], run = 0, running = false, dirty = false, number = 0, latest = 0, moved_at = 0;
-    let results = [[], []], divide = 0, thing = 0, drawn_by = 'chapter', mine = null, visible = false, stale = true;
-    let finished_samples = 0, finishing = false, finished_error = -1, timer = 0;
+    let workers = [], alone = false, mine = null, drawn_by = 'chapter';
+    let run = 0, stale = true; /* what came from the workers before is void */
+    let asked_for = 0, other_asked = 0, other_begun = false; /* samples */
+    let results = [[], []], started = 0, spent = 0, known_error = Infinity;
+    let collected = [], finishing = false, finished_samples = 0, finished_error = -1;
+    let number = 0, latest = 0, dirty = false, moved_at = 0, timer = 0; /* drafts */
+    let divide = 0, holding = false, thing = 0, gamma_is = 0, visible = false;
     const report = {first: 0, moves: [], drafts: [], done: 0, workers: 0}; /* for tests and the curious */
 
     ex.page_set_comparison(chapter.compare);
     const {canvas, other, status, spoken, progress, plans, said, where, controls, chart} = build();
     const context = canvas.getContext('2d'), other_context = other.getContext('2d');
-    hire(+(asked.get('workers') ?? Math.min(8, navigator.hardwareConcurrency ?? 2)));
+    const at_first = +(asked.get('workers') ?? Math.min(8, navigator.hardwareConcurrency ?? 2));
+    hire(at_first);
 
     /* ---- workers ------------------------------------------------------------------------- */
 
@@ -53,7 +58,8 @@ async function bring_to_life(root, name, encoded) {
         workers.forEach(w => { clearTimeout(w.alarm); w.end(); });
         workers = [];
         report.workers = count = Math.max(1, count);
-        let url = null;
+        let url = '';
+        alone = false;
         try {
             url = URL.createObjectURL(new Blob([open, '\n', work, '\nonmessage = (receive => e => receive(e.data))(work(postMessage));']));
         } catch { /* then without */ }
@@ -68,6 +74,7 @@ async function bring_to_life(root, name, encoded) {
             } catch {
                 if (k > 0)
                     break;
+                alone = true;
                 count = report.workers = 1;
                 const receive = work(m => setTimeout(hear, 0, m));
                 w.tell = m => setTimeout(receive, 0, m);
@@ -79,6 +86,9 @@ async function bring_to_life(root, name, encoded) {
             if (mine)
                 w.tell({do: 'module', name: 'mine', bytes: mine});
         }
+        if (url)
+            setTimeout(() => URL.revokeObjectURL(url), 10000);
+        stale = true;
     }
     const tell_all = m => workers.forEach(w => w.tell(m));
 
@@ -90,40 +100,52 @@ async function bring_to_life(root, name, encoded) {
             w.alarm = setTimeout(() => give_up('no end after 3 s: stopped'), 3000);
     }
     function heard(w, all) {
-        clearTimeout(w.alarm);
         if (w.owes && !all)
-            watch(w);
-        w.owes &&= !all;
+            return watch(w);
+        clearTimeout(w.alarm);
+        w.owes = false;
     }
     function give_up(why) {
         mine = null;
         drawn_by = 'chapter';
-        root.classList.remove('mine');
-        hire(report.workers);
-        say(why);
-        again(true);
+        root.classList.remove('mine', 'old');
+        hire(workers.length);
+        root.dispatchEvent(new CustomEvent('mine-failed', {detail: why}));
+        go();
     }
 
     /* ---- what is to be done ----------------------------------------------------------------- */
 
-    function step() {
+    /* Whatever happened: draw a draft, rest, or render what is missing. */
+    function go() {
         const now = seconds(), task = ex.page_next(now);
         clearTimeout(timer);
         if (task === DRAFT) {
             ex.page_begin_anew();
+            stop();
             run++;
-            running = false;
+            stale = true;
             moved_at ||= performance.now();
+            root.classList.add('moving');
             draft();
-            timer = setTimeout(step, 155);
+            timer = setTimeout(go, 155);
         } else if (task === REST) {
-            timer = setTimeout(step, 1000 * (ex.page_rests() - now) + 5);
-        } else if (task === REFINE && !running) {
-            refine(true);
+            timer = setTimeout(go, 1000 * (ex.page_rests() - now) + 5);
+        } else if (visible && !document.hidden) {
+            refine();
         }
         show_controls();
         if (ex.page_inspects())
             show_path();
+    }
+    function stop() {
+        tell_all({do: 'stop'});
+        asked_for = other_asked = 0;
+    }
+    /* What is to be seen, for the workers. */
+    function wish_now() {
+        ex.page_set_comparison(compares());
+        return wish();
     }
     function draft() {
         const w = workers.find(worker => !worker.busy);
@@ -131,44 +153,52 @@ async function bring_to_life(root, name, encoded) {
         if (!w)
             return;
         w.busy = true;
-        w.tell({do: 'draft', number: ++number, name: drawn_by, wish: wish()});
+        w.tell({do: 'draft', number: ++number, name: drawn_by, wish: wish_now()});
         watch(w);
     }
-    function refine(anew) {
-        running = true;
+    function refine() {
+        const samples = ex.page_samples(), anew = stale;
         if (anew) {
             run++;
+            stale = false;
             results = [[], []];
+            asked_for = spent = 0;
+            other_begun = false;
             finishing = false;
             finished_samples = 0;
             finished_error = -1;
-            report.done = 0;
-            report.other_done = false;
-            report.started = performance.now();
             chart.begin();
         }
-        tell_all({do: 'refine', run, anew, name: drawn_by, other: 0, to_other: 0, samples: ex.page_samples(), wish: wish()});
-        workers.forEach(watch);
+        if (asked_for < samples) {
+            asked_for = samples;
+            other_asked = 0; /* its job ends */
+            report.done = report.other_done = 0;
+            not_done(0);
+            started = performance.now() - spent;
+            tell_all({do: 'refine', run, anew, name: drawn_by, other: 0, to_other: 0, samples, wish: wish_now()});
+            workers.forEach(watch);
+        } else if (report.done) {
+            refine_other();
+        }
     }
+    function not_done(which) { results[which].filter(Boolean).forEach(r => { r.done = false; }); }
     /* The one to compare with: only when it is looked at, and the picture itself is done. */
     function refine_other() {
-        const noise = compares() === NOISY, right = drawn_by === 'mine';
-        if (noise || results[1].length > 0 || !(right || divide > 0 || (chapter.chart === 'error' && compares() === OTHER_NUMBERS)))
+        const right = drawn_by === 'mine', looked_at = right || holding || divide > 0 ||
+            (chapter.chart === 'error' && compares() === OTHER_NUMBERS);
+        const samples = compares() === ONE_SAMPLE ? 1 : ex.page_samples();
+        if (is_noisy() || !looked_at || other_asked >= samples)
             return;
-        const samples = compares() === ONE_SAMPLE && !right ? 1 : ex.page_samples();
-        results[1] = workers.map(() => ({samples: 0}));
-        tell_all({do: 'refine', run, anew: true, name: 'chapter', other: right ? 0 : 1, to_other: 1, samples, wish: wish()});
+        other_asked = samples;
+        not_done(1);
+        tell_all({do: 'refine', run, anew: !other_begun, name: 'chapter', other: right ? 0 : 1, to_other: 1, samples, wish: wish_now()});
+        other_begun = true;
     }
-    /* Something else than what is in the room has changed: more samples, or all again. */
-    function again(anew) {
+    /* Something else than what is in the room has changed: all again. */
+    function again() {
         moved_at = 0;
-        running = false;
-        stale ||= anew;
-        if (visible) {
-            refine(stale);
-            stale = false;
-        }
-        show_controls();
+        stale = true;
+        go();
     }
     function compares() {
         return drawn_by === 'mine' ? BY_RT_H : chapter.compare === NOISY && !ex.page_denoises() ? BEFORE : chapter.compare;
@@ -182,19 +212,19 @@ async function bring_to_life(root, name, encoded) {
         heard(w, m.draft !== undefined || (m.done && m.run === run && m.other === 0));
         if (m.draft !== undefined)
             return show_draft(m, w);
-        if (m.encoded) {
-            m.parts.forEach((part, i) => images[m.other].data.set(m.pixels[i], 4 * 4096 * part));
-            return paint(m.other);
-        }
         if (m.run !== run)
             return;
         if (m.collected)
             return finish(m);
         if (m.finished)
             return show_finished(m);
-        m.parts.forEach((part, i) => images[is_noisy() ? 1 : m.other].data.set(m.pixels[i], 4 * 4096 * part));
+        const put = which => m.parts.forEach((part, i) => images[which].data.set(m.pixels[i], 4 * PART * part));
+        put(is_noisy() ? 1 : m.other);
+        paint(is_noisy() ? 1 : m.other);
         if (is_noisy() && finished_samples === 0) /* nothing better yet */
-            m.parts.forEach((part, i) => images[0].data.set(m.pixels[i], 4 * 4096 * part));
+            put(0);
+        if (m.encoded)
+            return;
         results[m.other][m.k] = m;
         show_result(m.other);
     }
@@ -228,7 +258,6 @@ async function bring_to_life(root, name, encoded) {
         return {samples: all ? Math.min(...list.map(r => r.samples)) : 0, rays: sum(r => r.rays), done: all && list.every(r => r.done),
             busy: sum(r => r.busy) / 1000, error: noise > 0 ? Math.sqrt(noise / count) / (sum(r => r.sum) / count) : Infinity};
     }
-    let known_error = Infinity;
     function show_result(which) {
         const s = sum_up(which), w = performance.now();
         if (s.samples < 1)
@@ -237,9 +266,10 @@ async function bring_to_life(root, name, encoded) {
             chart.error(which, s.samples, s.error);
         if (which === 0) {
             known_error = s.error;
-            ex.page_progress(s.samples, s.rays, (w - report.started) / 1000);
+            spent = w - started;
+            ex.page_progress(s.samples, s.rays, spent / 1000);
             report.first ||= w - begun;
-            report.rate = s.rays / (w - report.started) / 1000;
+            report.rate = s.rays / spent / 1000;
             report.per_worker = s.rays / s.busy / 1e6;
             if (moved_at)
                 report.moves.push(w - moved_at);
@@ -252,33 +282,35 @@ async function bring_to_life(root, name, encoded) {
             }
             say_progress();
         }
+        if (which === 1 || is_noisy())
+            root.classList.remove('moving'); /* the other one is of this view, too */
         if (!calm.matches || s.done || (s.samples & (s.samples - 1)) === 0)
             paint(which);
         if (s.done && which === 0) {
-            running = false;
             if (!report.done) {
                 chart.speed(report.rate);
                 if (!is_noisy())
                     spoken.textContent = t('The picture is done.');
             }
-            report.done ||= w - report.started;
+            report.done ||= spent;
             refine_other();
         }
         if (s.done && which === 1)
-            report.other_done = true;
+            report.other_done = w;
     }
     /* Chapter 10: all parts to the first worker, which finishes the picture. */
-    let collected = [];
     function finish(m) {
         collected[m.k] = m.collected;
         if (collected.filter(Boolean).length < workers.length)
             return;
         const s = sum_up(0), parts = collected.flat();
-        workers[0].tell({do: 'finish', run, parts, samples: s.samples, last: s.done, wish: wish()},
+        workers[0].tell({do: 'finish', run, parts, samples: s.samples, last: s.done, wish: wish_now()},
             parts.flatMap(p => [p.pixels.buffer, p.half.buffer, p.guides.buffer]));
     }
     function show_finished(m) {
         finishing = false;
+        if (m.finished.length === 0) /* it is not wanted any more */
+            return;
         finished_samples = m.samples;
         finished_error = m.error;
         report.finishing = m.took;
@@ -304,7 +336,7 @@ async function bring_to_life(root, name, encoded) {
                 draw_cross();
         });
     }
-    function say(words) { status.textContent = words; }
+    function say(words) { status.textContent = in_words(words); }
     function say_progress() {
         say(text(ex.page_say_progress(known_error, is_noisy() ? finished_samples : 0, Math.max(0, finished_error))));
     }
@@ -318,29 +350,33 @@ async function bring_to_life(root, name, encoded) {
     let held = false;
     canvas.onpointerdown = e => {
         const [x, y, slack] = spot(e);
-        if (e.button === 1)
+        if (e.button === 1 || !e.isPrimary)
             return;
         held = true;
         ex.page_press(x, y, e.button === 0 ? 1 : 2, slack);
         canvas.setPointerCapture(e.pointerId);
-        step();
+        go();
     };
     canvas.onpointermove = e => {
         const [x, y] = spot(e);
+        if (!e.isPrimary)
+            return;
         if (!held) {
             canvas.style.cursor = ex.page_pick(x, y) ? 'grab' : 'crosshair';
             return;
         }
         ex.page_move(x, y, e.shiftKey ? 1 : 0);
-        step();
+        go();
     };
-    canvas.onpointerup = canvas.onpointercancel = e => {
-        if (held && e.type === 'pointerup')
+    canvas.onpointerup = () => {
+        if (held)
             ex.page_release();
-        else if (held)
-            ex.page_move(-1, -1, 0), ex.page_release();
         held = false;
-        step();
+        go();
+    };
+    canvas.onpointercancel = () => { /* the finger scrolls the page */
+        ex.page_let_go();
+        held = false;
     };
     canvas.oncontextmenu = e => e.preventDefault();
     canvas.addEventListener('touchstart', e => { /* a finger moves a thing; elsewhere it scrolls the page */
@@ -353,75 +389,71 @@ async function bring_to_life(root, name, encoded) {
             return;
         e.preventDefault();
         ex.page_wheel(-e.deltaY / 100);
-        step();
+        go();
     }, {passive: false});
     canvas.onkeydown = e => {
         if (e.ctrlKey && !e.getModifierState('AltGraph') || e.metaKey)
             return;
         const arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[e.key];
-        let key = e.key.length === 1 ? e.key.toLowerCase().charCodeAt(0) : KEYS[e.key] ?? 0;
-        if (!'123456789+-=[]'.includes(e.key) && /^Digit[1-7]$/.test(e.code)) /* a French keyboard */
-            key = e.code.charCodeAt(5);
-        if (e.key === 'Escape' || e.key === 'i') {
+        let key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
+        if (!'123456789+-=[]'.includes(key) && /^Digit[1-7]$/.test(e.code)) /* a French keyboard */
+            key = e.code[5];
+        if (key === 'Escape' || key === 'i') {
             if (!ex.page_inspects())
                 return;
             close_path();
-        } else if (e.key === 'Enter') {
+        } else if (key === 'Enter') {
             look_at(W >> 1, H >> 1);
         } else if (arrow && e.shiftKey && ex.page_inspects()) {
             look_at(at.x + 4 * arrow[0], at.y - 4 * arrow[1]);
         } else if (arrow && thing > 0) {
             nudge(...arrow, e.shiftKey);
-        } else if (e.key === 'b') {
+        } else if (key === 'b') {
             hold(true);
-        } else if (e.key === 'g') {
+        } else if (key === 'g') {
             set_gamma(gamma_is === 1 ? 0 : 1);
-        } else if ('+-='.includes(e.key)) {
-            ex.page_key(key);
-            again(false);
-        } else if (e.key === 'p') {
-            ex.page_key(key);
-            again(true);
-        } else if (key > 0 && (key >= 256 || '1234567dlr[]'.includes(String.fromCharCode(key)))) {
-            ex.page_key(key);
-            if (e.key === 'r')
+        } else if (KEYS[key] || '1234567dlpr[]+-='.includes(key)) {
+            ex.page_key(KEYS[key] ?? key.charCodeAt(0));
+            if (key === 'r')
                 as_at_first();
-            step();
+            stale ||= key === 'd' || key === 'p';
+            go();
         } else {
             return;
         }
         e.preventDefault();
     };
-    canvas.onkeyup = e => { if (e.key === 'b') hold(false); };
+    canvas.onkeyup = e => { if (e.key.toLowerCase() === 'b') hold(false); };
+    canvas.onblur = () => { if (holding) hold(false); };
     function hold(on) {
+        holding = on;
         root.style.setProperty('--divide', (on ? 100 : divide) + '%');
         root.classList.toggle('comparing', on || divide > 0);
-        if (on) {
-            const before = divide;
-            divide = 100;
-            refine_if_done();
-            divide = before;
-        }
+        go();
     }
-    function refine_if_done() { if (!running) refine_other(); }
-    function nudge(right, up, floor) { ex.page_nudge(thing, right, up, floor ? 1 : 0); step(); }
-    let gamma_is = 0;
+    function nudge(right, up, floor) { ex.page_nudge(thing, right, up, floor ? 1 : 0); go(); }
+    /* The same picture, other bytes. While the reader's routine draws, it makes them. */
     function set_gamma(gamma) {
-        gamma_is = gamma;
-        ex.page_set_gamma(gamma);
-        tell_all({do: 'encode', name: drawn_by, other: 0, to_other: 0, wish: wish()});
+        gamma_is = drawn_by === 'mine' ? 0 : gamma;
+        ex.page_set_gamma(gamma_is);
+        tell_all({do: 'encode', run, name: 'chapter', other: 0, to_other: 0, wish: wish_now()});
+        if (other_begun && drawn_by !== 'mine')
+            tell_all({do: 'encode', run, name: 'chapter', other: 1, to_other: 1, wish: wish_now()});
+        if (is_noisy()) { /* to be finished once more */
+            finished_samples = 0;
+            show_result(0);
+        }
         show_controls();
     }
     function as_at_first() {
         gamma_is = thing = 0;
-        ex.page_set_comparison(chapter.compare);
+        if (workers.length !== at_first && !alone)
+            hire(at_first);
         set_divide(0);
     }
     function set_divide(to) {
         divide = to;
         hold(false);
-        refine_if_done();
-        show_controls();
     }
 
     /* ---- the path of a pixel ------------------------------------------------------------------- */
@@ -516,24 +548,24 @@ async function bring_to_life(root, name, encoded) {
         };
         const known = {
             samples: () => slider('samples', 'samples', 0, 10, 1, () => Math.log2(ex.page_samples()), () => ex.page_samples(), to => {
-                const more = 2 ** to > ex.page_samples();
+                stale ||= 2 ** to < ex.page_samples();
                 ex.page_set_samples(2 ** to);
-                again(!more);
+                go();
             }),
             bounces: () => slider('bounces', 'bounces', 0, 10, 1, () => Math.min(10, ex.page_bounces()), () => ex.page_bounces(),
-                to => { ex.page_set_bounces(to); step(); }),
+                to => { ex.page_set_bounces(to); go(); }),
             gamma: () => slider('gamma', 'gamma', 1, 3, 0.1, () => gamma_is || 2.2, () => (gamma_is || 2.2).toFixed(1), set_gamma),
-            lanes: () => box('lanes', `4 ${t('rays at a time')}`, () => ex.page_lanes() > 1, () => { ex.page_key('p'.charCodeAt(0)); again(true); }),
+            lanes: () => box('lanes', `4 ${t('rays at a time')}`, () => ex.page_lanes() > 1, () => { ex.page_key('p'.charCodeAt(0)); again(); }),
             workers: () => slider('workers', 'workers', 1, Math.min(8, navigator.hardwareConcurrency ?? 2), 1, () => workers.length, () => workers.length,
-                to => { hire(to); again(true); }),
-            sampler: () => box('sampler', 'Sobol numbers', () => ex.page_sobol(), () => { ex.page_key('l'.charCodeAt(0)); step(); }),
-            denoise: () => box('denoise', 'without noise', () => ex.page_denoises(), () => { ex.page_key('d'.charCodeAt(0)); again(true); }),
+                to => { hire(to); again(); }),
+            sampler: () => box('sampler', 'Sobol numbers', () => ex.page_sobol(), () => { ex.page_key('l'.charCodeAt(0)); go(); }),
+            denoise: () => box('denoise', 'without noise', () => ex.page_denoises(), () => { ex.page_key('d'.charCodeAt(0)); again(); }),
             stages: () => {
                 const names = ['', 'sphere', 'walls', 'cube', 'shadows', 'gamma', 'mirror', 'indirect'];
                 const set = make('fieldset', {class: 'stages'}, make('legend', {class: 'spoken', text: t('as in chapter')}));
                 const inputs = [1, 2, 3, 4, 5, 6, 7].map(stage => {
-                    const input = make('input', {type: 'radio', name: root.id + '-stage', value: stage, onchange: () => { ex.page_set_stage(stage); step(); }});
-                    set.append(make('label', {}, input, make('span', {}, `${stage} `, make('small', {text: names[stage]}))));
+                    const input = make('input', {type: 'radio', name: root.id + '-stage', value: stage, onchange: () => { ex.page_set_stage(stage); go(); }});
+                    set.append(make('label', {}, input, make('span', {}, `${stage} `, make('small', {text: t(names[stage])}))));
                     return input;
                 });
                 controls.stages = () => inputs.forEach((input, i) => { input.checked = i + 1 === ex.page_stage(); });
@@ -547,25 +579,33 @@ async function bring_to_life(root, name, encoded) {
             divider.value = divide;
             compare.textContent = `${t('on the left')}: ${t(text(ex.page_comparison(compares())))}`;
         };
-        const list = make('select', {onchange: () => { thing = list.selectedIndex; }}, ...THINGS.slice(0, first_stage < 3 ? 2 : undefined).map(name => make('option', {text: t(name)})));
-        controls.thing = () => { list.selectedIndex = thing; };
+        const list = make('select', {onchange: () => { thing = +list.value; }}), things = THINGS.map((name, i) => make('option', {text: t(name), value: i}));
+        let listed = 0;
+        controls.thing = () => { /* those that the stage has */
+            const stage = ex.page_stage();
+            if (stage !== listed)
+                list.replaceChildren(...things.filter((_, i) => i < 2 || (i === 2 && stage >= 6) || (i === 3 && stage >= 3) || (i === 4 && stage >= 2)));
+            listed = stage;
+            list.value = thing;
+            thing = +list.value;
+        };
         const pad = make('span', {class: 'pad'}, ...[['←', 'left', -1, 0], ['↑', 'up', 0, 1], ['↓', 'down', 0, -1], ['→', 'right', 1, 0]].map(
             ([sign, name, x, y]) => button(sign, t(name), () => nudge(x, y))),
-            button('+', t('nearer'), () => { ex.page_wheel(1); step(); }), button('−', t('farther'), () => { ex.page_wheel(-1); step(); }));
+            button('+', t('nearer'), () => { ex.page_wheel(1); go(); }), button('−', t('farther'), () => { ex.page_wheel(-1); go(); }));
         const move = make('div', {class: 'bar'}, make('label', {}, t('move') + ' ', list), pad,
-            button(t('all as at first'), null, () => { ex.page_key('r'.charCodeAt(0)); as_at_first(); step(); }));
+            button(t('all as at first'), null, () => { ex.page_key('r'.charCodeAt(0)); as_at_first(); go(); }));
         [...root.children].forEach(child => { child.hidden = true; child.classList.add('still'); });
         root.append(make('div', {class: 'panes'}, stage, inspector), progress, status, spoken,
             make('div', {class: 'bar dividing'}, make('label', {class: 'wide'}, compare, ' ', divider)), bar, chart.element, move);
         return {canvas: picture, other: before, status, spoken, progress, plans: views.map(view => view.firstChild), said, where, controls, chart};
     }
-    function text_of_kind(kind) { return text(ex.page_kind(kind)); }
+    function text_of_kind(kind) { return t(text(ex.page_kind(kind))); }
     function chart_of() {
         const none = () => {};
         if (chapter.chart === 'error')
-            return error_chart(() => compares() !== OTHER_NUMBERS ? [] : ex.page_sobol() ? ['Sobol', 'random'] : ['random', 'Sobol']);
+            return error_chart(() => compares() !== OTHER_NUMBERS ? [] : ex.page_sobol() ? ['Sobol', t('random')] : [t('random'), 'Sobol']);
         if (chapter.chart === 'speed')
-            return speed_chart(() => `${ex.page_lanes()} ${t('rays at a time')}, ${workers.length} ${t('workers')}`);
+            return speed_chart(() => `${ex.page_lanes()} ${t(ex.page_lanes() > 1 ? 'rays at a time' : 'ray at a time')}, ${workers.length} ${t(workers.length > 1 ? 'workers' : 'worker')}`);
         return {element: '', begin: none, error: none, speed: none};
     }
     function show_controls() { Object.values(controls).forEach(show => show()); }
@@ -574,15 +614,23 @@ async function bring_to_life(root, name, encoded) {
 
     /* The reader's own routine: the picture by it, beside the right one. */
     root.addEventListener('mine', e => {
+        if (alone) /* nobody could end it */
+            return;
         mine = e.detail.bytes;
         drawn_by = 'mine';
         root.classList.add('mine');
-        workers.forEach(w => { w.busy = false; });
-        tell_all({do: 'module', name: 'mine', bytes: mine});
+        root.classList.remove('old');
+        if (workers.some(w => w.owes)) /* an answer to older code, perhaps for ever */
+            hire(workers.length);
+        else
+            tell_all({do: 'module', name: 'mine', bytes: mine});
+        set_gamma(0);
         set_divide(0);
         move_to_editor();
-        again(true);
+        again();
     });
+    /* What is typed now does not compile, or would crash: the picture is of what was typed before. */
+    root.addEventListener('mine-old', () => root.classList.toggle('old', drawn_by === 'mine'));
     /* There it is in sight while its routine is written. */
     function move_to_editor() {
         const editor = document.querySelector(`.edit[data-live="${root.id}"]`);
@@ -598,20 +646,14 @@ async function bring_to_life(root, name, encoded) {
     addEventListener('resize', () => { if (ex.page_inspects()) show_path(); });
     document.addEventListener('visibilitychange', () => {
         if (document.hidden)
-            tell_all({do: 'stop'});
-        else if (visible && !report.done)
-            again(false);
+            stop();
+        workers.forEach(w => heard(w, document.hidden));
+        go();
     });
     new IntersectionObserver(entries => {
-        const now = entries.at(-1).isIntersecting;
-        if (now && !visible) {
-            visible = true;
-            if (!report.done || stale)
-                again(false);
-        }
-        visible = now;
+        visible = entries.at(-1).isIntersecting;
+        go();
     }, {rootMargin: '200px'}).observe(root);
-    show_controls();
     Object.assign(report, {ex, text, images, say_path: () => text(ex.page_explain()), opened: performance.now() - begun});
     root.live = report;
 }

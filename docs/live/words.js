@@ -2,13 +2,14 @@
 
 const french = {
     'samples': 'échantillons', 'bounces': 'rebonds', 'all as at first': 'tout comme au début', 'the camera': 'la caméra',
-    'the ball': 'la boule', 'the mirror': 'le miroir', 'the cube': 'le cube', 'the lamp': 'la lampe', 'move': 'déplacer',
+    'the ball': 'la boule', 'the mirror': 'le miroir', 'mirror': 'miroir', 'the cube': 'le cube', 'the lamp': 'la lampe', 'move': 'déplacer',
     'left': 'à gauche', 'right': 'à droite', 'up': 'en haut', 'down': 'en bas', 'nearer': 'plus près', 'farther': 'plus loin',
     'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample': 'échantillon', 'The path': 'Le chemin', 'The path in words': 'Le chemin en mots', 'sample before': 'échantillon précédent',
     'next sample': 'échantillon suivant', 'on the left': 'à gauche', 'the chapter before': 'le chapitre précédent',
     'one sample': 'un seul échantillon', 'other numbers': 'd’autres nombres', 'with its noise': 'avec son bruit',
     'yours': 'la vôtre', 'The picture is with the editor now.': 'L’image est maintenant près de l’éditeur.', 'right one': 'la bonne', 'rt.h\'s own function': 'la fonction de rt.h',
-    'rays at a time': 'rayons à la fois', 'workers': 'processus', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
+    'rays at a time': 'rayons à la fois', 'workers': 'fils', 'worker': 'fil', 'ray at a time': 'rayon à la fois', 'random': 'aléatoires',
+    'sphere': 'sphère', 'walls': 'murs', 'cube': 'cube', 'shadows': 'ombres', 'indirect': 'indirecte', 'camera': 'caméra', 'matt': 'mat', 'normal': 'normale', 'lamp': 'lampe', 'in shadow': 'à l’ombre', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
     'as in chapter': 'comme au chapitre', 'The picture is done.': 'L’image est terminée.', 'error': 'erreur', 'gamma': 'gamma',
     'million rays a second': 'millions de rayons par seconde', 'This picture cannot move here': 'Cette image ne peut pas bouger ici',
 };
@@ -27,4 +28,13 @@ function make(name, attributes = {}, ...children) {
     }
     element.append(...children);
     return element;
+}
+
+/* What the viewer says of its progress. */
+function in_words(line) {
+    if (t('samples') === 'samples')
+        return line;
+    const words = {samples: 'échantillons', sample: 'échantillon', error: 'erreur', finished: 'débruitée', 'at most': 'au plus', wanted: 'voulus',
+        unknown: 'inconnue', 'direct light': 'lumière directe', 'a second': 'par seconde', 'Mrays/s': 'millions de rayons par seconde'};
+    return Object.entries(words).reduce((text, [english, ours]) => text.replace(english, ours), line);
 }

@@ -5,7 +5,7 @@
 
 /* The functions that a C library wants of its system: time, and text to print. */
 function open(module, width, height) {
-    const said = [], imports = {};
+    const imports = {};
     let ex;
     for (const {module: from, name} of WebAssembly.Module.imports(module))
         (imports[from] ??= {})[name] = () => 0;
@@ -18,12 +18,8 @@ function open(module, width, height) {
     system.fd_write = (file, list, count, written) => {
         const memory = new DataView(ex.memory.buffer);
         let all = 0;
-        for (let i = 0; i < count; i++) {
-            const at = memory.getUint32(list + 8 * i, true), size = memory.getUint32(list + 8 * i + 4, true);
-            if (said.length < 100) /* who prints without end is not heard out */
-                said.push(new TextDecoder().decode(new Uint8Array(ex.memory.buffer, at, size)));
-            all += size;
-        }
+        for (let i = 0; i < count; i++) /* the editor shows what is printed */
+            all += memory.getUint32(list + 8 * i + 4, true);
         memory.setUint32(written, all, true);
         return 0;
     };
@@ -34,7 +30,7 @@ function open(module, width, height) {
         throw new Error('not enough memory');
     const bytes = (at, size) => new Uint8Array(ex.memory.buffer, at, size);
     return {
-        ex, said, bytes,
+        ex, bytes,
         text: at => { const m = bytes(at); return new TextDecoder().decode(m.subarray(0, m.indexOf(0))); },
         wish() { const at = ex.page_wish(); return bytes(at, ex.page_wish_size()).slice(); },
         obey(wish) { const at = ex.page_wish(); bytes(at, wish.length).set(wish); ex.page_obey(); },
@@ -44,11 +40,10 @@ function open(module, width, height) {
 /* ---- what a worker does: answers messages by post ------------------------------------- */
 
 function work(post) {
-    const PART = 4096, SLICE = 12, SHOW = 33; /* pixels; milliseconds */
+    const PART = 4096, SLICE = 12, SHOW = 33; /* pixels, as in page.c; milliseconds */
     const instances = {}, targets = {};
     const channel = new MessageChannel(); /* to come back after other messages were heard */
     let k, n, width, height, job = null, shown = 0, waiting = false;
-    channel.port1.onmessage = proceed;
 
     const size = part => Math.min(PART, width * height - part * PART);
     const own = () => { const list = []; for (let p = k; p * PART < width * height; p += n) list.push(p); return list; };
@@ -127,7 +122,7 @@ function work(post) {
             const {ex, bytes, obey} = instances[m.name], list = own();
             obey(m.wish);
             const pixels = list.map(part => bytes(ex.page_encode(part, m.other), 4 * size(part)).slice());
-            post({k, encoded: true, other: m.to_other, parts: list, pixels}, pixels.map(p => p.buffer));
+            post({k, run: m.run, encoded: true, other: m.to_other, parts: list, pixels}, pixels.map(p => p.buffer));
         },
         collect(m) { /* all that is known about our parts */
             const {ex, bytes} = instances.chapter, g = ex.page_guide_size();
@@ -146,8 +141,8 @@ function work(post) {
                 bytes(to.guides + g * PART * p.part, p.guides.length).set(p.guides);
             }
             const start = performance.now(), at = ex.page_finish(m.samples), took = performance.now() - start;
-            const pixels = new Uint8ClampedArray(bytes(at, 4 * width * height));
-            post({k, run: m.run, finished: pixels, samples: m.samples, took, error: m.last ? ex.page_finished_error() : -1}, [pixels.buffer]);
+            const pixels = new Uint8ClampedArray(bytes(at, at ? 4 * width * height : 0)); /* none: it is not wanted any more */
+            post({k, run: m.run, finished: pixels, samples: m.samples, took, error: at && m.last ? ex.page_finished_error() : -1}, [pixels.buffer]);
         },
         stop() { job = null; },
     };

@@ -62,7 +62,8 @@ export async function newPage({ width = 1100, height = 900, features = [], befor
     if (before)
         await page.evaluateOnNewDocument(before);
     page.on('pageerror', error => complaints.push(error.message));
-    page.on('console', message => ['error', 'warn'].includes(message.type()) && complaints.push(message.text()));
+    page.on('console', message => ['error', 'warn'].includes(message.type()) &&
+        !/willReadFrequently/.test(message.text()) && complaints.push(message.text())); // that is these tests' reading
     page.on('request', request => /^(data:|blob:|file:|http:\/\/localhost:)/.test(request.url()) ||
         complaints.push(`asked ${request.url()}`));
     return page;
@@ -92,7 +93,7 @@ export async function run(tests, wanted) {
                 console.log(`${((performance.now() - from) / 1000).toFixed(1)} s: ${name}`);
         } catch (error) {
             bad++;
-            console.log(`${name}: ${error.stack}`);
+            console.log(`${name}: ${error.stack}${complaints.map(words => `\n    the page complains: ${words}`).join('')}`);
         }
         for (const page of (await browser.pages()).slice(1))
             await page.close();

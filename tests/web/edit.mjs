@@ -427,11 +427,14 @@ test('the picture by it, beside the right one', async () => {
     const [good, again] = await draw(`#define rt_leave my_leave\n#include "rt.h"\n${leave}${body}\n`);
     assert.equal(again, expected);
     assert.equal(good, expected, 'the same bytes');
+    await attempt(page, 'this is no C');
+    assert.ok(await page.$eval('.live', live => live.classList.contains('old')), 'of what was typed before');
     // right in all that is asked, but endless in the picture: the page goes on without it
     await attempt(page, `#define rt_leave my_leave\n#include "rt.h"\n${leave.replace('my_', 'other_')}${body}\n` +
         `${leave}{\n    static int calls;\n    if (++calls > 5000)\n        for (volatile int on = 1; on;) { }\n    return other_leave(point, normal, direction);\n}\n`);
     assert.match(await text(page, '.edit-verdict'), /^all right/m);
     await page.waitForFunction(() => !document.querySelector('.live').classList.contains('mine'), { timeout: 20000 });
+    assert.match(await text(page, '.edit-status'), /The picture by it: no end after 3 s: stopped/);
     await page.waitForFunction(() => document.querySelector('.live').live.done > 0, { timeout: 20000 });
     await press(page, 'as at first');
     await finished(page);

@@ -174,8 +174,11 @@ tests['keys say the same as in the window'] = async () => {
     }
     await anew(page, () => press(page, 'r'));
     assert.equal(await hash(page), first, 'key r');
-    await anew(page, () => press(page, '-'));
+    await press(page, '-'); // what there is, stays
     assert.equal(await text(page, '.live output'), '8');
+    await press(page, '+', '+');
+    await page.waitForFunction(() => /^32 samples/.test(document.querySelector('.status').textContent), { timeout: 20000 });
+    assert.equal(await hash(page), await nativeHash(page, 'demo07', '--samples', '32'));
 };
 
 tests['digits of a French keyboard need no Shift'] = async () => {
@@ -259,6 +262,98 @@ tests['the divider shows the other picture'] = async () => {
     const ten = await open('demo10');
     await done(ten, true);
     assert.equal(await hash(ten, 1), await nativeHash(ten, 'demo09', '--samples', '16'), 'its noise');
+};
+
+// The pixel of a canvas, of 240 x 180.
+const shown = (page, selector, x, y) => page.$eval(selector, (canvas, x, y) =>
+    [...canvas.getContext('2d').getImageData(x, y, 1, 1).data], x, y);
+
+tests['what is compared is really drawn, and never an older view'] = async () => {
+    const ten = await open('demo10');
+    await done(ten, true);
+    await slide(ten, 'on the left', 50);
+    await ten.waitForFunction(() => {
+        const data = document.querySelector('.other').getContext('2d').getImageData(0, 0, 240, 180).data;
+        return document.querySelector('.live').live.images[1].data.every((byte, i) => byte === data[i]);
+    }, { timeout: 5000 });
+    const five = await open('demo05');
+    await slide(five, 'on the left', 50);
+    await five.waitForFunction(() => document.querySelector('.live').live.other_done, { timeout: 20000 });
+    const before = await shown(five, '.other', 20, 90);
+    await slide(five, 'gamma', 3); // changes both
+    await five.waitForFunction(before => document.querySelector('.other').getContext('2d').getImageData(20, 90, 1, 1).data[1] > before, { timeout: 5000 }, before[1]);
+    await drag(five, BALL, [10, 0], 3);
+    assert.equal(await five.$eval('.other', canvas => getComputedStyle(canvas).visibility), 'hidden');
+    await five.waitForFunction(() => getComputedStyle(document.querySelector('.other')).visibility === 'visible', { timeout: 20000 });
+};
+
+tests['more samples: of both pictures, also while it moves'] = async () => {
+    const nine = await open('demo09');
+    await done(nine);
+    await slide(nine, 'samples', 7);
+    await nine.waitForFunction(() => document.querySelector('.live').live.other_done, { timeout: 60000 });
+    assert.equal(await hash(nine), await nativeHash(nine, 'demo09', '--samples', '128'));
+    assert.equal(await hash(nine, 1), await nativeHash(nine, 'demo09', '--samples', '128', '--sampler', 'random'));
+    const four = await open('demo04');
+    await done(four);
+    await anew(four, () => press(four, 'ArrowLeft', '+', 'ArrowLeft', '+'));
+    const [mixed, one] = [await hash(four), await open('demo04')];
+    await done(one);
+    await anew(one, () => press(one, '+', '+'));
+    await anew(one, () => press(one, 'ArrowLeft', 'ArrowLeft'));
+    assert.equal(mixed, await hash(one), 'no two views in one');
+};
+
+tests['a hidden tab rests and goes on'] = async () => {
+    const page = await open('demo07');
+    await done(page);
+    const hide = hidden => page.evaluate(hidden => {
+        Object.defineProperty(document, 'hidden', { value: hidden, configurable: true });
+        document.dispatchEvent(new Event('visibilitychange'));
+    }, hidden);
+    await slide(page, 'samples', 7);
+    await page.waitForFunction(() => /^(1[7-9]|[2-9]\d) samples/.test(document.querySelector('.status').textContent), { timeout: 20000 });
+    await hide(true);
+    await new Promise(later => setTimeout(later, 300));
+    const rested = await status(page);
+    await new Promise(later => setTimeout(later, 500));
+    assert.equal(await status(page), rested);
+    await hide(false);
+    await page.waitForFunction(() => /^128 samples/.test(document.querySelector('.status').textContent), { timeout: 60000 });
+    assert.equal(await hash(page), await nativeHash(page, 'demo07', '--samples', '128'));
+};
+
+tests['chapter 10: d and g change the finished picture, and back'] = async () => {
+    const page = await open('demo10');
+    await done(page, true);
+    const first = await hash(page), until = words => page.waitForFunction(words => new RegExp(words).test(document.querySelector('.status').textContent), { timeout: 20000 }, words);
+    await press(page, 'd');
+    await until('^16 samples, error [\\d.]+ %, [\\d.]+ Mrays');
+    assert.equal(await hash(page), await nativeHash(page, 'demo09', '--samples', '16'));
+    await press(page, 'd');
+    await until('finished: at most');
+    assert.equal(await hash(page), first);
+    await press(page, 'g');
+    await page.waitForFunction(first => document.querySelector('.live').live.images[0].data[4 * 9000] !== first, { timeout: 10000 }, await page.evaluate(() => document.querySelector('.live').live.images[0].data[4 * 9000]));
+    await press(page, 'g');
+    await until('finished: at most');
+    await page.waitForFunction(() => true);
+    await new Promise(later => setTimeout(later, 1500));
+    assert.equal(await hash(page), first);
+};
+
+tests['what the keys can move is what the stage has'] = async () => {
+    for (const [demo, things] of [['demo01', 2], ['demo02', 3], ['demo03', 4], ['demo06', 5]]) {
+        const page = await open(demo);
+        assert.equal(await page.$$eval('.live option', list => list.length), things, demo);
+    }
+};
+
+tests['in French for who reads French'] = async () => {
+    const page = await open('demo07', { before: () => { Object.defineProperty(navigator, 'language', { value: 'fr-CA' }); } });
+    await done(page);
+    assert.match(await status(page), /16 échantillons, erreur/);
+    assert.match(await text(page, '.live'), /à gauche: le chapitre précédent/);
 };
 
 // ---- the path of a pixel -------------------------------------------------------------------------------
