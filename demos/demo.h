@@ -54,13 +54,13 @@ typedef struct demo_live {
     void (*drag)(int thing, const demo_view *view, float right_pixels, float up_pixels,
                  bool over_the_floor);
     /* C code that brings this view back. */
-    void (*print)(text *out);
+    void (*print)(demo_text *out);
     /* Lines: the things in the room; and the path of one sample of the pixel (x, y), which
      * is told in words, too, in short and as --explain does (NULL: not wanted). */
     int (*outlines)(int stage, const demo_view *view, demo_line *lines, int most);
     int (*path)(int stage, const demo_view *view, const rt_options *options,
                 const rt_image *image, int x, int y, int sample, demo_line *lines,
-                int most, text *summary, text *words);
+                int most, demo_text *summary, demo_text *words);
     /* All that moves, to memory, and back: the number of bytes, at most DEMO_STATE. */
     size_t (*save)(void *to);
     void (*load)(const void *from);

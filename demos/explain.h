@@ -15,13 +15,13 @@ static const char *shape_name(int shape)
     return names[shape + 1];
 }
 
-static void print_vec(text *out, const char *before, rt_vec3 v, const char *after)
+static void print_vec(demo_text *out, const char *before, rt_vec3 v, const char *after)
 {
     text_add(out, "%s(%.6g, %.6g, %.6g)%s", before, (double)v.x, (double)v.y, (double)v.z,
              after);
 }
 
-static void print_vertex(text *out, const rt_path *path, int n)
+static void print_vertex(demo_text *out, const rt_path *path, int n)
 {
     const rt_vertex *v = &path->vertices[n];
     text_add(out, "  +- %s %s", n == 0 ? "camera ray meets" : "goes on to",
@@ -57,7 +57,7 @@ static void print_vertex(text *out, const rt_path *path, int n)
 }
 
 /* One sample, as rt_trace_pixel has written it down. */
-static void print_path(text *out, const rt_path *path, int sample)
+static void print_path(demo_text *out, const rt_path *path, int sample)
 {
     text_add(out, "sample %d\n", sample);
     for (int n = 0; n < path->vertex_count && n < path->max_vertices; n++)
@@ -87,7 +87,7 @@ static inline rt_status explain_indirect(const rt_options *options, const rt_ima
     static char words[MOST_WORDS];
     rt_path path = empty_path();
     rt_vec3 mean = {0, 0, 0};
-    text out;
+    demo_text out;
     for (int k = 0; k < options->samples; k++) {
         const rt_status status =
             rt_trace_pixel(&scene_indirect, &room_camera, options, image, x, y, k, &path);

@@ -309,7 +309,8 @@ static void live_reset(void)
     live_load(&first);
 }
 
-static void live_print_vec(text *out, const char *before, rt_vec3 v, const char *after)
+static void live_print_vec(demo_text *out, const char *before, rt_vec3 v,
+                           const char *after)
 {
     text_add(out, "%s{%#.9gf, %#.9gf, %#.9gf}%s", before, (double)v.x, (double)v.y,
              (double)v.z, after);
@@ -317,7 +318,7 @@ static void live_print_vec(text *out, const char *before, rt_vec3 v, const char 
 
 /* As the lines of scene.h that would show it. (%.9g brings each float back exactly; the #
  * gives it a point.) */
-static void live_print(text *out)
+static void live_print(demo_text *out)
 {
     live_print_vec(out, "rt_camera room_camera = {", room_camera.position, ", ");
     live_print_vec(out, "", room_camera.direction, ", ");
@@ -425,7 +426,7 @@ static void live_draw_path(const rt_path *path, live_lines *l)
 }
 
 /* Two lines for each vertex, to stand beside the plan. */
-static void live_summary(const rt_path *path, text *out)
+static void live_summary(const rt_path *path, demo_text *out)
 {
     for (int n = 0; n < path->vertex_count; n++) {
         const rt_vertex *v = &path->vertices[n];
@@ -450,7 +451,7 @@ static void live_summary(const rt_path *path, text *out)
 
 static int live_path(int stage, const demo_view *view, const rt_options *options,
                      const rt_image *image, int x, int y, int sample, demo_line *lines,
-                     int most, text *summary, text *words)
+                     int most, demo_text *summary, demo_text *words)
 {
     live_lines l = {lines, most, 0};
     rt_path path = empty_path();

@@ -73,7 +73,7 @@ static void attend(run *r)
 {
     viewer *v = &r->v;
     static char words[WORDS];
-    text out = text_in(words, sizeof words);
+    demo_text out = text_in(words, sizeof words);
     const bool there = !(v->disturbed && v->image.samples == 0);
     const bool tells = v->tell && !r->s.quiet, saves = v->save && there;
     v->tell = false;
@@ -83,7 +83,7 @@ static void attend(run *r)
     if (tells) {
         static viewer_line lines[VIEWER_LINES];
         char ignored[8];
-        text summary = text_in(ignored, sizeof ignored);
+        demo_text summary = text_in(ignored, sizeof ignored);
         text_add(&out, "%s: pixel %d,%d of %d x %d, %s\n", v->d->name, v->x, v->y,
                  v->view.width, v->view.height, viewer_bounces(v));
         viewer_plan(v, 1.0f, 1.0f, lines, &summary, &out);
@@ -168,7 +168,7 @@ static bool finish(run *r, rt_status status, double took)
         return false;
     if (!r->s.quiet) {
         char result[100];
-        text out = text_in(result, sizeof result);
+        demo_text out = text_in(result, sizeof result);
         viewer_say_samples(&v->image, rt_image_error(&v->image), &out);
         printf("%s: %.2f s, %s, %.1f million rays per second, ", v->d->name, took, result,
                (double)v->image.rays / took * 1e-6);

@@ -21,8 +21,7 @@ typedef struct part {
 } part;
 
 static viewer v;
-static part *parts[2]; /* of the picture; of the other one */
-static int part_count;
+static part *parts[2];       /* of the picture; of the other one */
 static unsigned char *bytes; /* of what was encoded last, 4 a pixel */
 static viewer_line lines[VIEWER_LINES];
 static char words[MOST_WORDS_SHOWN];
@@ -61,10 +60,10 @@ int EXPORT(page_start)(int width, int height)
     const size_t count = (size_t)width * (size_t)height;
     picture_width = width;
     picture_height = height;
-    part_count = (int)((count - 1) / PART) + 1;
+    const size_t part_count = (count - 1) / PART + 1;
     bytes = calloc(count, 4);
-    parts[0] = calloc((size_t)part_count, sizeof *parts[0]);
-    parts[1] = calloc((size_t)part_count, sizeof *parts[1]);
+    parts[0] = calloc(part_count, sizeof *parts[0]);
+    parts[1] = calloc(part_count, sizeof *parts[1]);
     if (!bytes || !parts[0] || !parts[1] || main(0, NULL) != 0)
         return 1;
     v.disturbed = true; /* there is no command line */
@@ -77,7 +76,7 @@ int EXPORT(page_start)(int width, int height)
 
 /* All that a worker has to know. Plain numbers, the same in every instance. */
 static struct wish {
-    int stage, samples, comparison, hold, denoise, shrink, bounces, lanes, sampler;
+    int stage, comparison, denoise, shrink, bounces, lanes, sampler;
     float gamma;
     unsigned char room[DEMO_STATE];
 } wish;
@@ -85,9 +84,7 @@ static struct wish {
 struct wish *EXPORT(page_wish)(void)
 {
     wish.stage = v.stage;
-    wish.samples = v.samples;
     wish.comparison = (int)v.comparison;
-    wish.hold = v.hold;
     wish.denoise = v.denoise;
     wish.shrink = v.shrink;
     wish.bounces = v.options.bounces;
@@ -107,9 +104,7 @@ int EXPORT(page_wish_size)(void)
 void EXPORT(page_obey)(void)
 {
     v.stage = wish.stage;
-    v.samples = wish.samples;
     v.comparison = (viewer_comparison)wish.comparison;
-    v.hold = wish.hold != 0;
     v.denoise = wish.denoise != 0;
     v.shrink = wish.shrink;
     v.options.bounces = v.view.bounces = wish.bounces;
@@ -271,7 +266,7 @@ const unsigned char *EXPORT(page_draft)(void)
 {
     viewer_draft(&v);
     v.rests = 1.0; /* so that it is what is shown */
-    viewer_encode(&v, v.hold, viewer_shown(&v), 4, bytes);
+    viewer_encode(&v, false, viewer_shown(&v), 4, bytes);
     return bytes;
 }
 
@@ -424,7 +419,7 @@ float EXPORT(page_finished_error)(void)
 /* error: of the picture with its noise; of so many samples it was finished, 0: not yet. */
 const char *EXPORT(page_say_progress)(double error, int finished, double finished_error)
 {
-    text out = text_in(words, sizeof words);
+    demo_text out = text_in(words, sizeof words);
     v.clean.samples = finished;
     v.clean.rays = v.image.rays;
     v.clean_error = (float)finished_error;
@@ -436,7 +431,7 @@ const char *EXPORT(page_say_progress)(double error, int finished, double finishe
  * many lines as it returns. */
 int EXPORT(page_plan)(float width, float height, int side)
 {
-    text summary = text_in(words, sizeof words);
+    demo_text summary = text_in(words, sizeof words);
     v.side = side != 0;
     return viewer_plan(&v, width, height, lines, &summary, NULL);
 }
@@ -455,7 +450,8 @@ const char *EXPORT(page_words)(void)
 const char *EXPORT(page_explain)(void)
 {
     char ignored[8];
-    text summary = text_in(ignored, sizeof ignored), out = text_in(words, sizeof words);
+    demo_demo_text summary = text_in(ignored, sizeof ignored),
+                   out = text_in(words, sizeof words);
     viewer_plan(&v, 1.0f, 1.0f, lines, &summary, &out);
     return words;
 }

@@ -6,16 +6,16 @@
 #include <stddef.h>
 #include <stdio.h>
 
-typedef struct text {
+typedef struct demo_text {
     char *at;
     size_t size, used; /* used < size: there is always a 0 at the end */
-} text;
+} demo_text;
 
-/* For an array: text t = text_in(array, sizeof array). */
-static inline text text_in(char *at, size_t size)
+/* For an array: demo_text t = text_in(array, sizeof array). */
+static inline demo_text text_in(char *at, size_t size)
 {
     at[0] = '\0';
-    return (text){at, size, 0};
+    return (demo_text){at, size, 0};
 }
 
 /* As printf, after what there is. */
@@ -23,7 +23,7 @@ static inline text text_in(char *at, size_t size)
 __attribute__((format(printf, 2, 3)))
 #endif
 static inline void
-text_add(text *t, const char *format, ...)
+text_add(demo_text *t, const char *format, ...)
 {
     va_list values;
     va_start(values, format);

@@ -663,7 +663,7 @@ const char *viewer_comparison_name(viewer_comparison comparison)
     return names[comparison];
 }
 
-void viewer_say_stage(const viewer *v, text *out)
+void viewer_say_stage(const viewer *v, demo_text *out)
 {
     static const char *const names[] = {"",        "sphere", "walls",  "cube",
                                         "shadows", "gamma",  "mirror", "indirect light"};
@@ -674,7 +674,7 @@ void viewer_say_stage(const viewer *v, text *out)
         text_add(out, "held: %s, ", viewer_comparison_name(v->comparison));
 }
 
-void viewer_say_samples(const rt_image *image, float error, text *out)
+void viewer_say_samples(const rt_image *image, float error, demo_text *out)
 {
     text_add(out, "%d sample%s", image->samples, viewer_plural(image->samples));
     if (error <= FLT_MAX)
@@ -684,7 +684,7 @@ void viewer_say_samples(const rt_image *image, float error, text *out)
 }
 
 void viewer_say_progress(viewer *v, const rt_image *shown, float error, double now,
-                         text *out)
+                         demo_text *out)
 {
     if (viewer_is_draft(v)) {
         text_add(out, "%s, %.0f a second",
@@ -706,7 +706,7 @@ void viewer_say_progress(viewer *v, const rt_image *shown, float error, double n
 }
 
 void viewer_say_pixel(const viewer *v, const rt_image *shown, const unsigned char *bytes,
-                      text *out)
+                      demo_text *out)
 {
     const int x = (int)(v->mouse_x * (float)shown->width / (float)v->view.width);
     const int y = (int)(v->mouse_y * (float)shown->height / (float)v->view.height);
@@ -737,7 +737,7 @@ static void flatten(bool side, rt_vec3 p, float q[2])
 }
 
 int viewer_plan(const viewer *v, float width, float height,
-                viewer_line lines[VIEWER_LINES], text *summary, text *words)
+                viewer_line lines[VIEWER_LINES], demo_text *summary, demo_text *words)
 {
     static demo_line room[VIEWER_LINES];
     const demo_live *live = v->d->live;

@@ -130,13 +130,13 @@ void viewer_encode(const viewer *v, bool other, const rt_image *image, int chann
                    unsigned char *bytes);
 /* In a few words: how far it is, and how fast. error: of the image, see rt_image_error. */
 void viewer_say_progress(viewer *v, const rt_image *shown, float error, double now,
-                         text *out);
+                         demo_text *out);
 /* How many samples, and, where it can be estimated, the error. */
-void viewer_say_samples(const rt_image *image, float error, text *out);
+void viewer_say_samples(const rt_image *image, float error, demo_text *out);
 const char *viewer_bounces(const viewer *v); /* "5 bounces"; until the next call */
 const char *viewer_comparison_name(viewer_comparison comparison);
 /* What stage it is, in words: "4 shadows (the demo's), held: one sample". */
-void viewer_say_stage(const viewer *v, text *out);
+void viewer_say_stage(const viewer *v, demo_text *out);
 
 /* A line of the plan: from above (x to the right, z down) or from the side (z to the right, y
  * up), as large as width x height allows. */
@@ -149,12 +149,12 @@ typedef struct viewer_line {
  * --explain says them. Returns how many lines there are. */
 enum { VIEWER_LINES = 1000 };
 int viewer_plan(const viewer *v, float width, float height,
-                viewer_line lines[VIEWER_LINES], text *summary, text *words);
+                viewer_line lines[VIEWER_LINES], demo_text *summary, demo_text *words);
 const char *viewer_kind_name(demo_kind kind); /* for the legend; "": none */
 
 /* The pixel under the pointer: linear, and encoded to these bytes. */
 void viewer_say_pixel(const viewer *v, const rt_image *shown, const unsigned char *bytes,
-                      text *out);
+                      demo_text *out);
 
 const char *viewer_plural(long long n);
 

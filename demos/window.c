@@ -143,7 +143,7 @@ static void draw_plan(const window *w, const viewer *v, SDL_Rect plan, SDL_Rect 
 {
     static viewer_line lines[VIEWER_LINES];
     static char words[1 << 14];
-    text summary = text_in(words, sizeof words);
+    demo_text summary = text_in(words, sizeof words);
     SDL_SetRenderDrawColor(w->renderer, 250, 250, 250, 255);
     SDL_RenderFillRect(w->renderer, &plan);
     SDL_RenderFillRect(w->renderer, &at);
@@ -217,7 +217,7 @@ static void set_title(const window *w, viewer *v, const rt_image *shown,
                       const char *pixel)
 {
     char words[400];
-    text t = text_in(words, sizeof words);
+    demo_text t = text_in(words, sizeof words);
     const rt_image *noisy = shown == &v->clean ? &v->image : shown;
     const int threads = rt_thread_count(v->options.threads);
     text_add(&t, "%s - ", v->d->title);
@@ -252,7 +252,7 @@ void window_draw(window *w, viewer *v)
 {
     SDL_Rect plan, words;
     char numbers[120];
-    text pixel = text_in(numbers, sizeof numbers);
+    demo_text pixel = text_in(numbers, sizeof numbers);
     const rt_image *shown = viewer_shown(v);
     const SDL_Rect part = {0, 0, shown->width, shown->height};
     v->redraw = false;

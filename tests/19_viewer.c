@@ -339,7 +339,7 @@ static void test_the_plan_fits(void **state)
     char words[4000];
     for (int side = 0; side <= 1; side++)
         for (int stage = 1; stage <= 7; stage++) {
-            text summary = text_in(words, sizeof words);
+            demo_text summary = text_in(words, sizeof words);
             viewer_set_stage(&v, stage);
             v.side = side == 1;
             viewer_inspect(&v, (int)ball_x, (int)ball_y);
@@ -362,7 +362,7 @@ static void test_too_long_a_text_is_cut(void **state)
 {
     (void)state;
     char words[8];
-    text t = text_in(words, sizeof words);
+    demo_text t = text_in(words, sizeof words);
     text_add(&t, "%d", 12345);
     assert_string_equal(words, "12345");
     text_add(&t, "%s", "67890");
