@@ -450,8 +450,8 @@ const char *EXPORT(page_words)(void)
 const char *EXPORT(page_explain)(void)
 {
     char ignored[8];
-    demo_demo_text summary = text_in(ignored, sizeof ignored),
-                   out = text_in(words, sizeof words);
+    demo_text summary = text_in(ignored, sizeof ignored),
+              out = text_in(words, sizeof words);
     viewer_plan(&v, 1.0f, 1.0f, lines, &summary, &out);
     return words;
 }
