@@ -6,6 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { gzipSync } from 'node:zlib';
 import { build, findings, firefox, newPage, run } from './browser.mjs';
 
 const words = process.argv.slice(2).filter(word => word !== '--firefox');
@@ -111,6 +112,13 @@ for (const demo of chapters)
         await done(page, demo === 'demo10');
         assert.equal(await hash(page), await nativeHash(page, demo));
     };
+
+tests['a chapter sends less than 200 kB'] = async () => {
+    const packed = name => gzipSync(readFileSync(`${pages}/live/${name}`)).length;
+    const most = Math.max(...chapters.map(demo => packed(`${demo}.js`))) + packed('live.js') + packed('live.css');
+    console.log(`  the largest: ${Math.round(most / 1000)} kB`);
+    assert.ok(most < 200000);
+};
 
 tests['one worker, three, and none make the same picture'] = async () => {
     for (const options of [{ workers: 1 }, { workers: 3 }, { before: () => { delete window.Worker; } }])
