@@ -308,8 +308,9 @@ static int key_of(SDL_Keysym key)
     case SDLK_KP_MINUS: return '-';
     default: break;
     }
-    const bool known = key.sym == '-' || key.sym == '=' || key.sym == '+';
-    if (!known && key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_7)
+    const bool row = key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_7;
+    const bool sign = key.sym == '-' || key.sym == '=' || key.sym == '+'; /* also there */
+    if (row && (!sign || (key.mod & KMOD_SHIFT) != 0))
         return '1' + (int)(key.scancode - SDL_SCANCODE_1);
     return key.sym > 0 && key.sym < 128 ? (int)key.sym : 0;
 }

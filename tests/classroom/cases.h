@@ -19,7 +19,10 @@ typedef struct kind {
     int count; /* 0: CASES */
 } kind;
 
-/* ---- making inputs --------------------------------------------------------------------- */
+/* ---- making inputs ---------------------------------------------------------------------
+ *
+ * One number per statement: in which order the arguments of a call are worked out is the
+ * compiler's choice, and the inputs of a seed are to be the same everywhere. */
 
 static uint32_t first_state; /* made from the seed; all inputs of a kind start with it */
 
@@ -87,66 +90,79 @@ static void camera_defaults(float *in, int k, uint32_t *state)
 
 static void camera_anywhere(float *in, int k, uint32_t *state)
 {
-    const rt_vec3 direction = any_direction(state);
+    const rt_vec3 direction = any_direction(state), side = across(direction, state);
+    const float length = between(state, 0.1f, 50);
     (void)k;
-    put_camera(in, rt_scale(direction, between(state, 0.1f, 50)),
-               rt_add(across(direction, state), rt_scale(direction, 0.3f)), 46, 320, 240,
-               state);
+    put_camera(in, rt_scale(direction, length), rt_add(side, rt_scale(direction, 0.3f)),
+               46, 320, 240, state);
+}
+
+/* A number from low to high; where both are the same, that. */
+typedef struct range {
+    float low, high;
+} range;
+
+static float pick(range r, uint32_t *state)
+{
+    return r.low < r.high ? between(state, r.low, r.high) : r.low;
 }
 
 /* A sphere and a ray that comes by its centre at so many radii; from distance radii away. */
-static void put_sphere(float *in, rt_vec3 center, float radius, float beside,
-                       float distance, float length, float t_max, uint32_t *state)
+static void put_sphere(float *in, range radius, range beside, range distance,
+                       range length, float t_max, uint32_t *state)
 {
+    const float l = pick(length, state);
+    const float d = pick(distance, state);
+    const float away = pick(beside, state);
+    const float r = pick(radius, state);
+    const rt_vec3 center = vec_between(state, -9, 9);
     const rt_vec3 u = any_direction(state);
-    const rt_vec3 aim = rt_add(center, rt_scale(across(u, state), beside * radius));
+    const rt_vec3 aim = rt_add(center, rt_scale(across(u, state), away * r));
     put_vec(&in, center);
-    *in++ = radius;
-    put_vec(&in, rt_sub(aim, rt_scale(u, distance * radius)));
-    put_vec(&in, rt_scale(u, length));
+    *in++ = r;
+    put_vec(&in, rt_sub(aim, rt_scale(u, d * r)));
+    put_vec(&in, rt_scale(u, l));
     *in = t_max;
 }
+
+static const range any_radius = {0.5f, 3}, through = {0, 0.95f}, one = {1, 1};
 
 static void sphere_hit(float *in, int k, uint32_t *state)
 {
     (void)k;
-    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
-               between(state, 0, 0.95f), between(state, 1.1f, 9), 1, FLT_MAX, state);
+    put_sphere(in, any_radius, through, (range){1.1f, 9}, one, FLT_MAX, state);
 }
 
 static void sphere_long(float *in, int k, uint32_t *state)
 {
     (void)k;
-    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
-               between(state, 0, 0.95f), between(state, 1.1f, 9),
-               between(state, 0.1f, 20), FLT_MAX, state);
+    put_sphere(in, any_radius, through, (range){1.1f, 9}, (range){0.1f, 20}, FLT_MAX,
+               state);
 }
 
 static void sphere_miss(float *in, int k, uint32_t *state)
 {
     (void)k;
-    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
-               between(state, 1.05f, 3), between(state, -9, 9), 1, FLT_MAX, state);
+    put_sphere(in, any_radius, (range){1.05f, 3}, (range){-9, 9}, one, FLT_MAX, state);
 }
 
 static void sphere_behind(float *in, int k, uint32_t *state)
 {
     (void)k;
-    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
-               between(state, 0, 0.95f), between(state, -9, -1.1f), 1, FLT_MAX, state);
+    put_sphere(in, any_radius, through, (range){-9, -1.1f}, one, FLT_MAX, state);
 }
 
 static void sphere_inside(float *in, int k, uint32_t *state)
 {
     (void)k;
-    put_sphere(in, vec_between(state, -9, 9), between(state, 0.5f, 3),
-               between(state, 0, 0.6f), between(state, -0.6f, 0.6f), 1, FLT_MAX, state);
+    put_sphere(in, any_radius, (range){0, 0.6f}, (range){-0.6f, 0.6f}, one, FLT_MAX,
+               state);
 }
 
 static void sphere_limit(float *in, int k, uint32_t *state)
 {
     /* met between t = 5 and 9; the way in may be before t_max and the way out not */
-    put_sphere(in, vec_between(state, -9, 9), 2, between(state, 0, 0.9f), 3.5f, 1,
+    put_sphere(in, (range){2, 2}, (range){0, 0.9f}, (range){3.5f, 3.5f}, one,
                k % 2 == 0 ? 4.9f : 9.5f, state);
 }
 
@@ -154,8 +170,8 @@ static void sphere_wall(float *in, int k, uint32_t *state)
 {
     const float radius = 1e5f;
     const rt_vec3 n = any_direction(state);
-    rt_vec3 start =
-        rt_add(rt_scale(n, -between(state, 1, 99)), vec_between(state, -9, 9));
+    const rt_vec3 about = vec_between(state, -9, 9);
+    const rt_vec3 start = rt_add(rt_scale(n, -between(state, 1, 99)), about);
     (void)k;
     put_vec(&in, rt_scale(n, -radius - 120));
     *in++ = radius;
@@ -190,12 +206,12 @@ static void put_box(float *in, bool inside, bool aims, float length, uint32_t *s
     rt_vec3 to = rt_add(min, rt_mul(part, size));
     rt_vec3 from = inside ? rt_add(min, rt_mul(other, size))
                           : rt_add(to, rt_scale(n, 6 + between(state, 3, 9)));
-    if (!aims) /* past the ball around the box */
-        to = rt_add(
-            rt_add(min, rt_scale(size, 0.5f)),
-            rt_scale(across(n, state), 0.5f * rt_length(size) + between(state, 0.1f, 5)));
-    if (!aims)
+    if (!aims) { /* past the ball around the box */
+        const float beside = 0.5f * rt_length(size) + between(state, 0.1f, 5);
+        to =
+            rt_add(rt_add(min, rt_scale(size, 0.5f)), rt_scale(across(n, state), beside));
         from = rt_add(to, rt_scale(n, between(state, -9, 9)));
+    }
     const rt_vec3 direction = aims ? toward(from, to) : n;
     put_vec(&in, min);
     put_vec(&in, rt_add(min, size));
@@ -441,8 +457,8 @@ static void put_leave(float *in, float size, float side, uint32_t *state)
     const rt_vec3 normal = any_direction(state);
     put_vec(&in, vec_between(state, -size, size));
     put_vec(&in, normal);
-    put_vec(&in, rt_add(rt_scale(normal, side * between(state, 0.05f, 1)),
-                        across(normal, state)));
+    const rt_vec3 sideways = across(normal, state);
+    put_vec(&in, rt_add(rt_scale(normal, side * between(state, 0.05f, 1)), sideways));
 }
 
 static void leave_above(float *in, int k, uint32_t *state)
@@ -494,7 +510,8 @@ static void reflect_unit(float *in, int k, uint32_t *state)
 static void reflect_long(float *in, int k, uint32_t *state)
 {
     (void)k;
-    put_vec(&in, rt_scale(any_direction(state), between(state, 0.1f, 30)));
+    const float length = between(state, 0.1f, 30);
+    put_vec(&in, rt_scale(any_direction(state), length));
     put_vec(&in, any_direction(state));
 }
 
