@@ -240,7 +240,7 @@ test('what goes wrong while it runs', async () => {
     const from = performance.now();
     let said = await attempt(page, submission('eva.c'));
     assert.match(said.verdict, /WRONG {2}unit vectors: no end within 3 seconds\n0 of 2/);
-    assert.ok(performance.now() - from < 8000);
+    assert.ok(performance.now() - from < 15000);
     const events = await page.evaluate(() => window.events.length);
     said = await attempt(page, submission('finn.c'));
     assert.match(said.verdict, /WRONG {2}unit vectors: it crashed: it read or wrote outside/);
@@ -409,7 +409,7 @@ test('the picture by it, beside the right one', async () => {
     await begin(page);
     const hashes = async () => {
         await page.waitForFunction(() => document.querySelector('.live').live.other_done &&
-            document.querySelector('.live').live.done > 0, { timeout: 20000 });
+            document.querySelector('.live').live.done > 0, { timeout: 60000 });
         return page.evaluate(() => document.querySelector('.live').live.images.map(image => image.data.reduce((h, byte) => Math.imul(h ^ byte, 16777619) >>> 0, 2166136261)));
     };
     const draw = async code => {
@@ -432,9 +432,9 @@ test('the picture by it, beside the right one', async () => {
     await attempt(page, `#define rt_leave my_leave\n#include "rt.h"\n${leave.replace('my_', 'other_')}${body}\n` +
         `${leave}{\n    static int calls;\n    if (++calls > 5000)\n        for (volatile int on = 1; on;) { }\n    return other_leave(point, normal, direction);\n}\n`);
     assert.match(await text(page, '.edit-verdict'), /^all right/m);
-    await page.waitForFunction(() => !document.querySelector('.live').classList.contains('mine'), { timeout: 20000 });
+    await page.waitForFunction(() => !document.querySelector('.live').classList.contains('mine'), { timeout: 60000 });
     assert.match(await text(page, '.edit-status'), /The picture by it: no end after 3 s: stopped/);
-    await page.waitForFunction(() => document.querySelector('.live').live.done > 0, { timeout: 20000 });
+    await page.waitForFunction(() => document.querySelector('.live').live.done > 0, { timeout: 60000 });
     await press(page, 'as at first');
     await finished(page);
 });
