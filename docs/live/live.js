@@ -40,7 +40,7 @@ async function bring_to_life(root, name, encoded) {
     let run = 0, stale = true; /* what came from the workers before is void */
     let asked_for = 0, other_asked = 0, other_begun = false; /* samples */
     let results = [[], []], started = 0, spent = 0, known_error = Infinity;
-    let collected = [], finishing = false, finished_samples = 0, finished_error = -1;
+    let collected = [], finishing = false, finish_again = false, finished_samples = 0, finished_error = -1;
     let number = 0, latest = 0, dirty = false, moved_at = 0, timer = 0; /* drafts */
     let divide = 0, holding = false, thing = 0, gamma_is = 0, visible = false;
     const report = {first: 0, moves: [], drafts: [], done: 0, workers: 0}; /* for tests and the curious */
@@ -164,7 +164,7 @@ async function bring_to_life(root, name, encoded) {
             results = [[], []];
             asked_for = spent = 0;
             other_begun = false;
-            finishing = false;
+            finishing = finish_again = false;
             finished_samples = 0;
             finished_error = -1;
             chart.begin();
@@ -311,7 +311,8 @@ async function bring_to_life(root, name, encoded) {
         finishing = false;
         if (m.finished.length === 0) /* it is not wanted any more */
             return;
-        finished_samples = m.samples;
+        finished_samples = finish_again ? 0 : m.samples;
+        finish_again = false;
         finished_error = m.error;
         report.finishing = m.took;
         images[0].data.set(m.finished);
@@ -440,6 +441,7 @@ async function bring_to_life(root, name, encoded) {
         if (other_begun && drawn_by !== 'mine')
             tell_all({do: 'encode', run, name: 'chapter', other: 1, to_other: 1, wish: wish_now()});
         if (is_noisy()) { /* to be finished once more */
+            finish_again = finishing;
             finished_samples = 0;
             show_result(0);
         }
