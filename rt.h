@@ -1671,11 +1671,10 @@ typedef struct rt_image {
                       is */
     rt_guide *guides; /* NULL, or one for each pixel, for what rt_denoise wants to know:
                       means over the same samples. To be added or taken away as half is */
-    int first,
-        count; /* 0, 0: the whole picture. Else this is a part of it: all the memory
-                      is for count pixels, those of the picture from number first on
-                      (pixel (x, y) is number y * width + x). Parts that were rendered
-                      apart, on any machine, have together the same bits as the whole */
+    int first, count; /* 0, 0: the whole picture. Else it is a part, and all the memory is
+                         for count pixels, those of the picture from number first on:
+                         pixel (x, y) is number y * width + x. Parts that were rendered
+                         apart, on any machine, have together the bits of the whole */
 } rt_image;
 
 /* Begin a new picture in the same memory. */

@@ -81,12 +81,9 @@ static void attend(run *r)
         return;
     progress_end(&r->p);
     if (tells) {
-        static viewer_line lines[VIEWER_LINES];
-        char ignored[8];
-        demo_text summary = text_in(ignored, sizeof ignored);
         text_add(&out, "%s: pixel %d,%d of %d x %d, %s\n", v->d->name, v->x, v->y,
                  v->view.width, v->view.height, viewer_bounces(v));
-        viewer_plan(v, 1.0f, 1.0f, lines, &summary, &out);
+        viewer_explain(v, &out);
     }
     if (saves) {
         v->save = false;

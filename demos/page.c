@@ -433,7 +433,7 @@ int EXPORT(page_plan)(float width, float height, int side)
 {
     demo_text summary = text_in(words, sizeof words);
     v.side = side != 0;
-    return viewer_plan(&v, width, height, lines, &summary, NULL);
+    return viewer_plan(&v, width, height, lines, &summary);
 }
 
 const viewer_line *EXPORT(page_lines)(void)
@@ -449,10 +449,8 @@ const char *EXPORT(page_words)(void)
 /* The same path as --explain tells it. */
 const char *EXPORT(page_explain)(void)
 {
-    char ignored[8];
-    demo_text summary = text_in(ignored, sizeof ignored),
-              out = text_in(words, sizeof words);
-    viewer_plan(&v, 1.0f, 1.0f, lines, &summary, &out);
+    demo_text out = text_in(words, sizeof words);
+    viewer_explain(&v, &out);
     return words;
 }
 

@@ -736,17 +736,28 @@ static void flatten(bool side, rt_vec3 p, float q[2])
     q[1] = side ? -p.y : p.z;
 }
 
+/* The lines of the path of the pixel that is inspected, in the room, and its words, either way. */
+static int trace(const viewer *v, demo_line *lines, int most, demo_text *summary,
+                 demo_text *words)
+{
+    return v->d->live->path(v->stage, &v->view, &v->options, &v->image, v->x, v->y,
+                            v->sample, lines, most, summary, words);
+}
+
+void viewer_explain(const viewer *v, demo_text *out)
+{
+    trace(v, NULL, 0, NULL, out);
+}
+
 int viewer_plan(const viewer *v, float width, float height,
-                viewer_line lines[VIEWER_LINES], demo_text *summary, demo_text *words)
+                viewer_line lines[VIEWER_LINES], demo_text *summary)
 {
     static demo_line room[VIEWER_LINES];
-    const demo_live *live = v->d->live;
-    const int outlines = live->outlines(v->stage, &v->view, room, VIEWER_LINES);
+    const int outlines = v->d->live->outlines(v->stage, &v->view, room, VIEWER_LINES);
     text_add(summary, "pixel %d,%d, sample %d, from %s (v)\n", v->x, v->y, v->sample,
              v->side ? "the side" : "above");
-    const int count = outlines + live->path(v->stage, &v->view, &v->options, &v->image,
-                                            v->x, v->y, v->sample, room + outlines,
-                                            VIEWER_LINES - outlines, summary, words);
+    const int count =
+        outlines + trace(v, room + outlines, VIEWER_LINES - outlines, summary, NULL);
     float low[2] = {FLT_MAX, FLT_MAX}, high[2] = {-FLT_MAX, -FLT_MAX};
     for (int i = 0; i < 2 * outlines; i++) {
         float q[2];

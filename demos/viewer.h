@@ -145,11 +145,13 @@ typedef struct viewer_line {
     demo_kind kind;
 } viewer_line;
 
-/* The path of the pixel that is inspected: its plan, its words in short, and, unless NULL, as
- * --explain says them. Returns how many lines there are. */
+/* The path of the pixel that is inspected: its plan, and its words in short. Returns how many lines
+ * there are. */
 enum { VIEWER_LINES = 1000 };
 int viewer_plan(const viewer *v, float width, float height,
-                viewer_line lines[VIEWER_LINES], demo_text *summary, demo_text *words);
+                viewer_line lines[VIEWER_LINES], demo_text *summary);
+/* The same path only in words, as --explain has it. */
+void viewer_explain(const viewer *v, demo_text *out);
 const char *viewer_kind_name(demo_kind kind); /* for the legend; "": none */
 
 /* The pixel under the pointer: linear, and encoded to these bytes. */

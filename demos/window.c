@@ -150,7 +150,7 @@ static void draw_plan(const window *w, const viewer *v, SDL_Rect plan, SDL_Rect 
     draw_legend(w, plan);
     plan.y += 2 * text_height(w);
     plan.h -= 2 * text_height(w);
-    const int count = viewer_plan(v, (float)plan.w, (float)plan.h, lines, &summary, NULL);
+    const int count = viewer_plan(v, (float)plan.w, (float)plan.h, lines, &summary);
     SDL_RenderSetClipRect(w->renderer, &plan);
     for (int i = 0; i < count; i++) {
         const viewer_line *l = &lines[i];

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The live pictures by themselves, one page for each chapter: build/web/index.html, to be opened as a
-# file or from a web server. "make docs" puts the same pictures into the chapters.
+# The live pictures by themselves, one page for each chapter: build/web/pages/index.html, to be
+# opened as a file or from a web server. "make docs" puts the same pictures into the chapters.
 web=${BUILD:-build}/web/pages
 rm -rf "$web" && mkdir -p "$web/images" || exit
 docs/live/build.sh "$web/live" || exit

@@ -343,7 +343,7 @@ static void test_the_plan_fits(void **state)
             viewer_set_stage(&v, stage);
             v.side = side == 1;
             viewer_inspect(&v, (int)ball_x, (int)ball_y);
-            const int count = viewer_plan(&v, 200, 100, lines, &summary, NULL);
+            const int count = viewer_plan(&v, 200, 100, lines, &summary);
             int outlines = 0;
             for (int i = 0; i < count; i++) {
                 const float ends[4] = {lines[i].x0, lines[i].x1, lines[i].y0,

@@ -4,8 +4,7 @@
 # at the top of the repository. Exit status 3, with one line, where a tool is missing.
 [ $# = 1 ] || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
 folder=$1 build=${BUILD:-build}/web
-command -v clang >/dev/null && command -v wasm-ld >/dev/null &&
-    echo 'int main(void) { return 0; }' | clang --target=wasm32-wasi -x c -o /dev/null - 2>/dev/null || {
+.ci/deps wasm || {
     echo "note: no compiler for WebAssembly (make deps-web): no live pictures"
     exit 3
 }

@@ -6,7 +6,7 @@
 
 /* ---- the figure -------------------------------------------------------------------------- */
 
-const NOTHING = 0, DRAFT = 1, REST = 2, REFINE = 3; /* as viewer_task */
+const DRAFT = 1, REST = 2; /* as viewer_task */
 const BEFORE = 0, ONE_SAMPLE = 1, BY_RT_H = 2, OTHER_NUMBERS = 3, NOISY = 4; /* as viewer_comparison */
 const KEYS = {ArrowLeft: 256, ArrowRight: 257, ArrowUp: 258, ArrowDown: 259, PageUp: 260, PageDown: 261};
 const PART = 4096; /* pixels, as in page.c */
