@@ -99,8 +99,8 @@ static bool write_file(const char *who, const char *given, const void *bytes, si
 }
 
 /* PFM: linear floats, little endian (the -1), bottom row first. */
-static bool save_pfm(const char *who, const char *path, int width, int height,
-                     const rt_vec3 *pixels)
+bool files_save_pfm(const char *who, const char *path, int width, int height,
+                    const rt_vec3 *pixels)
 {
     char head[64];
     const size_t head_size =
@@ -126,8 +126,8 @@ static bool save_pfm(const char *who, const char *path, int width, int height,
     return good;
 }
 
-static bool save_png(const char *who, const char *path, int width, int height,
-                     const unsigned char *bytes)
+bool files_save_png(const char *who, const char *path, int width, int height,
+                    const unsigned char *bytes)
 {
     int size = 0;
     unsigned char *file =
@@ -141,10 +141,7 @@ static bool save_png(const char *who, const char *path, int width, int height,
     return good;
 }
 
-bool files_save(const char *who, const char *path, int width, int height,
-                const unsigned char *bytes, const rt_vec3 *pixels)
+bool files_is_pfm(const char *path)
 {
-    return strcmp(strrchr(path, '.'), ".pfm") == 0
-               ? save_pfm(who, path, width, height, pixels)
-               : save_png(who, path, width, height, bytes);
+    return strcmp(strrchr(path, '.'), ".pfm") == 0;
 }

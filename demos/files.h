@@ -7,8 +7,11 @@
 
 /* Can such a file be written? Said before the rendering, not after it. */
 bool files_can_write(const char *who, const char *path);
-/* As the name ends: .png, from bytes, 3 for each pixel; .pfm, from pixels. */
-bool files_save(const char *who, const char *path, int width, int height,
-                const unsigned char *bytes, const rt_vec3 *pixels);
+/* PNG, of 3 bytes for each pixel; PFM, if the name ends in .pfm, of the pixels themselves. */
+bool files_is_pfm(const char *path);
+bool files_save_png(const char *who, const char *path, int width, int height,
+                    const unsigned char *bytes);
+bool files_save_pfm(const char *who, const char *path, int width, int height,
+                    const rt_vec3 *pixels);
 
 #endif

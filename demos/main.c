@@ -63,9 +63,11 @@ static bool save(run *r)
     if (bad > 0)
         fprintf(stderr, "%s: warning: %d of %d pixels are NaN or infinite\n",
                 r->v.d->name, bad, image->width * image->height);
+    if (files_is_pfm(r->s.out))
+        return files_save_pfm(r->v.d->name, r->s.out, image->width, image->height,
+                              image->pixels);
     viewer_encode(&r->v, false, image, 3, r->bytes);
-    return files_save(r->v.d->name, r->s.out, image->width, image->height, r->bytes,
-                      image->pixels);
+    return files_save_png(r->v.d->name, r->s.out, image->width, image->height, r->bytes);
 }
 
 /* What was asked for by a key: the file; the camera as C code; the pixel in words. */

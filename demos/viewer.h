@@ -38,10 +38,9 @@ typedef struct viewer {
     rt_options first;   /* as they were, for r */
     bool denoise, denoise_first;
     rt_image image;
-    rt_image other; /* to compare with */
-    rt_image draft; /* while something moves */
-    rt_image
-        clean; /* one of them without noise, of so many samples; none: not yet there */
+    rt_image other;    /* to compare with */
+    rt_image draft;    /* while something moves */
+    rt_image clean;    /* without noise, of so many samples; none: not yet there */
     float clean_error; /* its estimated error; below 0: not yet known */
 
     int stage;   /* 1 to 7 */
