@@ -618,8 +618,9 @@ static void test_bad_parts(void **state)
     image.first = 11;
     image.count = 1;
     rt_path path = {0};
+    const rt_options timed = {.seconds = 1.0f}; /* which rendering a part refuses */
     assert_int_equal(
-        rt_trace_pixel(&scene_indirect, &room_camera, NULL, &image, 0, 0, 0, &path),
+        rt_trace_pixel(&scene_indirect, &room_camera, &timed, &image, 0, 0, 0, &path),
         RT_OK);
 }
 
