@@ -349,8 +349,9 @@ tests['chapter 10: d and g change the finished picture, and back'] = async () =>
     await become(page, await nativeHash(page, 'demo09', '--samples', '16'), 'd');
     await press(page, 'd');
     await become(page, first, 'd twice');
+    const pixel = () => document.querySelector('.live').live.images[0].data[4 * 9000], clean = await page.evaluate(pixel);
     await press(page, 'g');
-    await page.waitForFunction(first => document.querySelector('.live').live.images[0].data[4 * 9000] !== first, { timeout: 60000 }, await page.evaluate(() => document.querySelector('.live').live.images[0].data[4 * 9000]));
+    await page.waitForFunction(clean => document.querySelector('.live').live.images[0].data[4 * 9000] !== clean, { timeout: 60000 }, clean);
     await press(page, 'g');
     await become(page, first, 'g twice');
 };
