@@ -385,6 +385,8 @@ struct rt_sphere;
 struct rt_box;
 struct rt_scene;
 struct rt_rng;
+struct rt_lamp;
+struct rt_lens;
 
 static inline struct rt_ray rt_camera_ray(const struct rt_camera *camera, int width,
                                           int height, float x, float y);
@@ -410,12 +412,29 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2);
 static inline rt_vec3 rt_radiance(const struct rt_scene *scene,
                                   const struct rt_ray *camera_ray, int bounces,
                                   struct rt_rng *rng);
+static inline float rt_fresnel(float cosine, float eta);
+static inline bool rt_refract(rt_vec3 incident, rt_vec3 normal, float eta,
+                              rt_vec3 *refracted);
+static inline rt_vec3 rt_sample_lamp(const struct rt_lamp *lamp, rt_vec3 point, float r1,
+                                     float r2);
+static inline float rt_lamp_density(const struct rt_lamp *lamp, rt_vec3 point,
+                                    rt_vec3 direction);
+static inline float rt_mis(float density, float other);
+static inline rt_vec3 rt_sample_gloss(rt_vec3 normal, rt_vec3 to_eye, float shininess,
+                                      float r1, float r2);
+static inline float rt_gloss(rt_vec3 normal, rt_vec3 to_eye, rt_vec3 to_light,
+                             float shininess, float *density);
+static inline struct rt_ray rt_lens_ray(const struct rt_camera *camera,
+                                        const struct rt_lens *lens,
+                                        const struct rt_ray *pinhole, float r1, float r2);
 
 #if defined(rt_camera_ray) || defined(rt_hit_sphere) || defined(rt_intersect) ||         \
     defined(rt_lambert) || defined(rt_hit_box) || defined(rt_leave) ||                   \
     defined(rt_occluded) || defined(rt_visible) || defined(rt_direct) ||                 \
     defined(rt_reflect) || defined(rt_random) || defined(rt_sample_cosine) ||            \
-    defined(rt_radiance)
+    defined(rt_radiance) || defined(rt_fresnel) || defined(rt_refract) ||                \
+    defined(rt_sample_lamp) || defined(rt_lamp_density) || defined(rt_mis) ||            \
+    defined(rt_sample_gloss) || defined(rt_gloss) || defined(rt_lens_ray)
 #define RT__OWN /* no packets: they would not call it */
 #endif
 
@@ -670,7 +689,12 @@ typedef struct rt_light {
     rt_vec3 intensity; /* I in W/sr per channel, not negative */
 } rt_light;
 
-struct rt_bvh; /* chapter 8 */
+/* The light that comes from far away in a direction: see chapter 14. */
+typedef rt_vec3 rt_sky_function(const void *data, rt_vec3 direction);
+
+struct rt_bvh;     /* chapter 8 */
+struct rt_surface; /* 11 */
+struct rt_lamp;    /* 12 */
 
 /* The arrays are yours: they must live as long as the scene is used. NULL with 0 is fine.
  */
@@ -684,6 +708,12 @@ typedef struct rt_scene {
     rt_vec3 background; /* the light that comes from where nothing is hit; 0 is black */
     const struct rt_bvh *bvh; /* for many shapes, see chapter 8; NULL: rt_intersect and
                                  rt_occluded ask each of them */
+    /* The rest is for part two, chapters 11 to 15; all zero, it changes nothing. */
+    const struct rt_surface *surfaces; /* NULL, or one for each sphere, then each box */
+    const struct rt_lamp *lamps;
+    int lamp_count;
+    rt_sky_function *sky; /* NULL, or in place of the background, handed sky_data */
+    const void *sky_data;
 } rt_scene;
 
 static inline float rt__meet_box(const rt_box *box, const rt_ray *ray,
@@ -1648,6 +1678,871 @@ RT__INLINE float rt__doubt(float differ, float noise, int samples)
 }
 
 /* ====================================================================================
+ * Part two: what else a surface, a lamp and a camera can be
+ *
+ * Part one knows matt surfaces and mirrors, lamps that are points, and a camera that is a
+ * pinhole. Chapters 11 to 15 bring the rest. None of it changes anything above: a scene
+ * has a table of surfaces or it has none, and then all of them are as in part one. The
+ * loop that puts the chapters together, rt_radiance_mis, stands at the end.
+ *
+ * Chapter 11. Glass
+ * ==================================================================================== */
+
+/* The albedo at the point P of a surface with normal N: see chapter 15. */
+typedef rt_vec3 rt_pattern_function(const void *data, rt_vec3 point, rt_vec3 normal);
+
+/* What a surface does beyond its rt_material. All zero: nothing. */
+typedef struct rt_surface {
+    float eta;          /* 0: not glass. Else the shape is of clear glass, and this is its
+                           refractive index, 1 to 4: water 1.33, glass 1.5, diamond 2.42;
+                           its material does not count */
+    rt_vec3 absorption; /* of the glass: what light loses for each unit of length, see
+                           rt_transmittance */
+    float shininess;    /* chapter 13. 0: matt, or a perfect mirror. Above, up to 1e6: a
+                           gloss, the sharper the larger it is. A mirror becomes a rough
+                           metal, a matt surface gets a coat of clear lacquer */
+    rt_vec3 emission;   /* radiance that it sends by itself, in all directions alike. Only
+                           chance finds it; what is small should be an rt_lamp */
+    rt_pattern_function *pattern; /* chapter 15: in place of the albedo; NULL: none */
+    const void *pattern_data;     /* handed to it */
+} rt_surface;
+
+/* The number of the shape that was hit; a routine of your own need not know it, so then
+ * it is the one that has the material. -1 if there is none. */
+static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
+{
+#ifdef rt_intersect
+    for (int i = 0; i < scene->sphere_count; i++)
+        if (&scene->spheres[i].material == hit->material)
+            return i;
+    for (int i = 0; i < scene->box_count; i++)
+        if (&scene->boxes[i].material == hit->material)
+            return scene->sphere_count + i;
+    return -1;
+#else
+    (void)scene;
+    return hit->shape;
+#endif
+}
+
+/* The surface that was hit: of the scene's table, or all zero if it has none. */
+static inline const rt_surface *rt_surface_of(const rt_scene *scene, const rt_hit *hit)
+{
+    static const rt_surface plain = {
+        0.0f, {0.0f, 0.0f, 0.0f}, 0.0f, {0.0f, 0.0f, 0.0f}, NULL, NULL};
+    const int number = scene->surfaces ? rt__shape_number(scene, hit) : -1;
+    return number < 0 ? &plain : &scene->surfaces[number];
+}
+
+/* Did the ray come from inside the shape? Then N, which is on its side, points to the
+ * middle. */
+static inline bool rt_is_inside(const rt_scene *scene, const rt_hit *hit)
+{
+    const int number = rt__shape_number(scene, hit), box = number - scene->sphere_count;
+    if (number < 0)
+        return false;
+    const rt_vec3 middle =
+        box < 0 ? scene->spheres[number].center
+                : rt_scale(rt_add(scene->boxes[box].min, scene->boxes[box].max), 0.5f);
+    return rt_dot(rt_sub(hit->point, middle), hit->normal) < 0.0f;
+}
+
+/* The part of the light that a surface of glass reflects, 0 to 1; the rest goes through.
+ * The ray comes in at the angle i to the normal, cosine = cos i > 0, and would go on at
+ * the angle t; eta is the refractive index behind the surface over that before it. Then
+ *
+ *     sin t = sin i / eta                                        (Snell's law)
+ *     p = (eta cos i - cos t) / (eta cos i + cos t)
+ *     s = (cos i - eta cos t) / (cos i + eta cos t)
+ *     F = (p^2 + s^2) / 2                                        (A. Fresnel, 1823)
+ *
+ * for light of which half is polarised either way. If sin t would be above 1, all of it
+ * is reflected: 1. sin^2 i is taken as (1 - cos i)(1 + cos i), of which no digits are
+ * lost near cos i = 1. Near the critical angle F rises like a root, and is right to 1e-4
+ * only. */
+#ifndef rt_fresnel
+static inline float rt_fresnel(float cosine, float eta)
+{
+    const float sin2 = (1.0f - cosine) * (1.0f + cosine) / (eta * eta);
+    if (!(sin2 < 1.0f))
+        return 1.0f;
+    const float through = sqrtf(1.0f - sin2);
+    const float p = (eta * cosine - through) / (eta * cosine + through);
+    const float s = (cosine - eta * through) / (cosine + eta * through);
+    return 0.5f * (p * p + s * s);
+}
+#endif
+
+/* The direction in which the ray I, of length 1, goes on behind the surface; N is on the
+ * side that it comes from, eta as above:
+ *
+ *     T = I / eta + (cos i / eta - cos t) N.
+ *
+ * What lies in the surface shrinks by eta, which is Snell's law, and along -N comes as
+ * much as length 1 needs. Returns false, and leaves *refracted alone, where there is no
+ * such direction: total reflection. */
+#ifndef rt_refract
+static inline bool rt_refract(rt_vec3 incident, rt_vec3 normal, float eta,
+                              rt_vec3 *refracted)
+{
+    const float cosine = -rt_dot(incident, normal);
+    const float sin2 = (1.0f - cosine) * (1.0f + cosine) / (eta * eta);
+    if (!(sin2 < 1.0f))
+        return false;
+    *refracted = rt_add(rt_scale(incident, 1.0f / eta),
+                        rt_scale(normal, cosine / eta - sqrtf(1.0f - sin2)));
+    return true;
+}
+#endif
+
+/* e^-x for x >= 0, within 2e-7 of itself; 0 from x = 87 on, 1 for NaN. e^-x = 2^-k e^r,
+ * where k is x / ln 2, rounded, and r, what is then left, is between -0.35 and 0.35. ln 2
+ * is subtracted in two parts, of which the first is short, so that k times it is exact.
+ * Why not expf: see rt_sincos, and the coefficients are from there, too (expf). */
+static inline float rt__exp_minus(float x)
+{
+    if (!(x < 87.0f))
+        return x >= 87.0f ? 0.0f : 1.0f;
+    if (!(x > 0.0f))
+        return 1.0f;
+    const int k = (int)(x * 1.44269504089f + 0.5f);
+    const float r = ((float)k * 0.693359375f - x) - (float)k * 2.12194440e-4f;
+    float e = 1.9875691500e-4f;
+    e = e * r + 1.3981999507e-3f;
+    e = e * r + 8.3334519073e-3f;
+    e = e * r + 4.1665795894e-2f;
+    e = e * r + 1.6666665459e-1f;
+    e = e * r + 5.0000001201e-1f;
+    e = e * r * r + r + 1.0f;
+    const uint32_t bits = (uint32_t)(127 - k) << 23; /* 2^-k */
+    float power;
+    memcpy(&power, &bits, sizeof power);
+    return e * power;
+}
+
+/* What is left of light after this distance in glass: exp(-absorption . distance), for
+ * each channel (P. Bouguer, 1729; called Beer's law). */
+static inline rt_vec3 rt_transmittance(rt_vec3 absorption, float distance)
+{
+    return rt_vec(rt__exp_minus(absorption.x * distance),
+                  rt__exp_minus(absorption.y * distance),
+                  rt__exp_minus(absorption.z * distance));
+}
+
+/* ====================================================================================
+ * Chapter 12. Lamps with a size
+ *
+ * A lamp is a black body that shines. It has the same radiance wherever one sees it from,
+ * and stands in the way of what is behind it.
+ * ==================================================================================== */
+
+typedef struct rt_lamp {
+    rt_vec3 center;
+    float radius;      /* of a ball, 1e-6 or more; 0: a parallelogram */
+    rt_vec3 intensity; /* I in W/sr per channel: from far away, or straight in front of a
+                          parallelogram, it lights like an rt_light of this intensity */
+    rt_vec3 u, v; /* if radius is 0: half of the two sides. Its corners are center +- u +-
+                     v; both of its faces shine */
+} rt_lamp;
+
+/* The area of a parallelogram. */
+static inline float rt__lamp_area(const rt_lamp *lamp)
+{
+    return 4.0f * rt_length(rt_cross(lamp->u, lamp->v));
+}
+
+/* The radiance of the lamp, from wherever one looks at it: L = I over the area that it
+ * shows, pi R^2 for a ball. */
+static inline rt_vec3 rt_lamp_radiance(const rt_lamp *lamp)
+{
+    const float area = lamp->radius > 0.0f ? 3.14159265359f * lamp->radius * lamp->radius
+                                           : rt__lamp_area(lamp);
+    return rt_scale(lamp->intensity, 1.0f / area);
+}
+
+/* The t with 0 < t < t_max at which the ray meets the lamp, or 0. A parallelogram is met
+ * where C + t u lies in its plane, and the point is center + a u + b v with |a|, |b| <=
+ * 1. With n = u x v, w = v x n and so on, a = <P - center, w> / <u, w>. */
+static inline float rt_meet_lamp(const rt_lamp *lamp, const rt_ray *ray, float t_max)
+{
+    if (lamp->radius > 0.0f) {
+        rt_sphere ball;
+        memset(&ball, 0, sizeof ball);
+        ball.center = lamp->center;
+        ball.radius = lamp->radius;
+        return (float)rt__meet_sphere(&ball, ray, t_max);
+    }
+    const rt_vec3 n = rt_normalize(rt_cross(lamp->u, lamp->v));
+    const float toward = rt_dot(ray->direction, n);
+    const float way = rt_dot(rt_sub(lamp->center, ray->origin), n);
+    if (!(fabsf(way) < 1e30f * fabsf(toward))) /* along the plane, or as good as */
+        return 0.0f;
+    const float t = way / toward;
+    if (!(t > 0.0f && t < t_max))
+        return 0.0f;
+    const rt_vec3 p = rt_sub(rt_at(ray, t), lamp->center);
+    const rt_vec3 across_v = rt_cross(lamp->v, n), across_u = rt_cross(lamp->u, n);
+    const bool met = fabsf(rt_dot(p, across_v)) <= fabsf(rt_dot(lamp->u, across_v)) &&
+                     fabsf(rt_dot(p, across_u)) <= fabsf(rt_dot(lamp->v, across_u));
+    return met ? t : 0.0f;
+}
+
+/* The number of the nearest lamp that the ray meets before t_max, not counting the lamp
+ * with number but; -1: none. */
+static inline int rt__nearest_lamp(const rt_scene *scene, const rt_ray *ray, float t_max,
+                                   int but)
+{
+    int nearest = -1;
+    for (int i = 0; i < scene->lamp_count; i++) {
+        const float t = i == but ? 0.0f : rt_meet_lamp(&scene->lamps[i], ray, t_max);
+        if (t > 0.0f) {
+            t_max = t;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+/* From P a ball is seen under the angle a to either side of its centre, sin a = R / d. Of
+ * all directions they are the part (1 - cos a) / 2. That difference is
+ *
+ *     1 - cos a = s / (1 + sqrt(1 - s)),        s = sin^2 a,
+ *
+ * where nothing is lost if the ball is small. Here it is 0 if P is inside the ball, or so
+ * far away that it has no size any more. */
+static inline float rt__cap(const rt_lamp *lamp, rt_vec3 point)
+{
+    const rt_vec3 to_center = rt_sub(lamp->center, point);
+    const float dd = rt_dot(to_center, to_center), rr = lamp->radius * lamp->radius;
+    if (!(rr < dd && rr > 1e-30f * dd))
+        return 0.0f;
+    const float s = rr / dd;
+    return s / (1.0f + sqrtf(1.0f - s));
+}
+
+/* A point S of the lamp that P may see, from two uniform numbers r1, r2 in (0, 1), drawn
+ * with the density below.
+ *
+ * Of a ball it is the one in a direction of which each within the cone is as likely as
+ * any other: 1 - cos is uniform in (0, 1 - cos a). On a parallelogram all points are
+ * equally likely. */
+#ifndef rt_sample_lamp
+static inline rt_vec3 rt_sample_lamp(const rt_lamp *lamp, rt_vec3 point, float r1,
+                                     float r2)
+{
+    if (!(lamp->radius > 0.0f))
+        return rt_add(lamp->center, rt_add(rt_scale(lamp->u, 2.0f * r1 - 1.0f),
+                                           rt_scale(lamp->v, 2.0f * r2 - 1.0f)));
+    const rt_vec3 to_center = rt_sub(lamp->center, point);
+    const float d = rt_length(to_center), down = r2 * rt__cap(lamp, point); /* 1 - cos */
+    const float sine = sqrtf(down * (2.0f - down));
+    float s, c;
+    rt_sincos(r1, &s, &c);
+    rt_vec3 a, b, n = rt_scale(to_center, 1.0f / d);
+    rt_basis(n, &a, &b);
+    const rt_vec3 direction = rt_add(rt_add(rt_scale(a, c * sine), rt_scale(b, s * sine)),
+                                     rt_scale(n, 1.0f - down));
+    /* the way to the near side of the ball */
+    const float off = d * sine, rest = lamp->radius * lamp->radius - off * off;
+    const float t = d * (1.0f - down) - sqrtf(rest > 0.0f ? rest : 0.0f);
+    return rt_add(point, rt_scale(direction, t));
+}
+#endif
+
+/* The density, per steradian, with which rt_sample_lamp chooses this direction, of length
+ * 1, from P; it must be one that meets the lamp. 0: never.
+ *
+ * Of a ball 1 / (2 pi (1 - cos a)). Of a parallelogram of area A, d^2 / (A |cos b|): a
+ * square metre takes up less of the sphere of directions the farther away it is, and the
+ * flatter it is seen, at the angle b. */
+#ifndef rt_lamp_density
+static inline float rt_lamp_density(const rt_lamp *lamp, rt_vec3 point, rt_vec3 direction)
+{
+    if (lamp->radius > 0.0f) {
+        const float cap = rt__cap(lamp, point);
+        return cap > 0.0f ? 1.0f / (6.28318530718f * cap) : 0.0f;
+    }
+    const rt_vec3 n = rt_normalize(rt_cross(lamp->u, lamp->v));
+    const float area = rt__lamp_area(lamp), cosine = fabsf(rt_dot(direction, n));
+    const float way = rt_dot(rt_sub(lamp->center, point), n);
+    if (!(cosine > 1e-6f))
+        return 0.0f; /* on edge */
+    const float d = way / cosine, dd = d * d;
+    return dd * 1e-14f < area ? dd / area / cosine : 0.0f;
+}
+#endif
+
+/* The weight of a direction that two ways of drawing might have found, for the one that
+ * did: with density its own, with other the other's,
+ *
+ *     w = density^2 / (density^2 + other^2).
+ *
+ * Each of the two counts with its weight, and both weights are 1 together: so nothing is
+ * counted twice, and who is likelier to find a direction has more to say. That is
+ * multiple importance sampling, with the power heuristic: E. Veach, L. Guibas, "Optimally
+ * combining sampling techniques for Monte Carlo rendering", SIGGRAPH 1995. Squares of
+ * floats may overflow; their ratio, where it counts, does not. */
+#ifndef rt_mis
+static inline float rt_mis(float density, float other)
+{
+    if (!(density > 1e-15f * other))
+        return 0.0f;
+    const float ratio = other / density;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+#endif
+
+/* ====================================================================================
+ * Chapter 13. Gloss
+ *
+ * A rough surface is made of tiny mirrors, microfacets, that do not all face the same
+ * way. The smoother it is, the more of them face along N, and the sharper is what it
+ * shows.
+ *
+ * How many face which way is Trowbridge's and Reitz's choice (1975), called GGX since B.
+ * Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007:
+ *
+ *     D(h) = a^2 / (pi (<N,h>^2 (a^2 - 1) + 1)^2),        a^2 = 2 / (shininess + 2).
+ *
+ * The name shininess, and what it means, are those of the exponent in B. Phong,
+ * "Illumination for computer generated pictures", 1975: near its middle the lobe
+ * cos^shininess is as wide. Why not Phong's lobe itself: at 60 degrees half of the light
+ * is gone, whatever the exponent. See docs/13-gloss.md.
+ * ==================================================================================== */
+
+static inline float rt__roughness2(float shininess)
+{
+    return 2.0f / (shininess + 2.0f);
+}
+
+/* v / |v| in float, for v of moderate length; 0 for 0. */
+static inline rt_vec3 rt__unit(rt_vec3 v)
+{
+    const float dd = rt_dot(v, v);
+    return rt_scale(v, dd > 1e-20f ? 1.0f / sqrtf(dd) : 0.0f);
+}
+
+/* The part G of the facets that is seen at this cosine to the normal, and not hidden by
+ * others, is 2 cosine / this (B. Smith, 1967). */
+static inline float rt__hidden(float cosine, float a2)
+{
+    return cosine + sqrtf(a2 + (1.0f - a2) * cosine * cosine);
+}
+
+/* A direction in which the gloss sends light to the eye, on from which the path goes:
+ * that of a mirror whose normal is one of the facets that the eye sees, each as likely as
+ * its share of the view. r1, r2 are uniform in (0, 1). It may point below the surface;
+ * then the light goes nowhere.
+ *
+ * The surface is stretched by 1/a along its plane, so that the facets become a
+ * hemisphere; there the wanted normal is halfway between the eye and a uniform direction
+ * of a cap. J. Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG
+ * 2023, after E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4),
+ * 2018. */
+#ifndef rt_sample_gloss
+static inline rt_vec3 rt_sample_gloss(rt_vec3 normal, rt_vec3 to_eye, float shininess,
+                                      float r1, float r2)
+{
+    const float a = sqrtf(rt__roughness2(shininess));
+    rt_vec3 x, y;
+    rt_basis(normal, &x, &y);
+    const rt_vec3 eye = rt__unit(
+        rt_vec(a * rt_dot(x, to_eye), a * rt_dot(y, to_eye), rt_dot(normal, to_eye)));
+    float sine, cosine;
+    rt_sincos(r1, &sine, &cosine);
+    const float z = (1.0f - r2) * (1.0f + eye.z) - eye.z, zz = 1.0f - z * z;
+    const float r = sqrtf(zz > 0.0f ? zz : 0.0f);
+    const rt_vec3 half =
+        rt_vec(a * (r * cosine + eye.x), a * (r * sine + eye.y), z + eye.z);
+    const rt_vec3 facet = rt__unit(rt_add(
+        rt_add(rt_scale(x, half.x), rt_scale(y, half.y)), rt_scale(normal, half.z)));
+    return rt_sub(rt_scale(facet, 2.0f * rt_dot(to_eye, facet)), to_eye);
+}
+#endif
+
+/* What part of the light from to_light, times <N,to_light>, the gloss sends to the eye,
+ * as if each facet reflected all of it; per steradian, and all directions of length 1:
+ *
+ *     D(h) G(eye) G(light) / (4 <N,eye>),         h halfway between the two,
+ *
+ * and in *density, that of rt_sample_gloss, the same without G(light). Both are 0 if one
+ * of the two is below the surface. <N,h>^2 (a^2 - 1) + 1 is taken as |N x h|^2 + a^2
+ * <N,h>^2, of which no digits are lost when a is small. */
+#ifndef rt_gloss
+static inline float rt_gloss(rt_vec3 normal, rt_vec3 to_eye, rt_vec3 to_light,
+                             float shininess, float *density)
+{
+    const float a2 = rt__roughness2(shininess);
+    const float eye = rt_dot(normal, to_eye), light = rt_dot(normal, to_light);
+    const rt_vec3 h = rt__unit(rt_add(to_eye, to_light)), across = rt_cross(normal, h);
+    const float up = rt_dot(normal, h), k = rt_dot(across, across) + a2 * up * up;
+    *density = 0.0f;
+    if (!(eye > 0.0f && light > 0.0f && up > 0.0f))
+        return 0.0f;
+    *density = a2 / (3.14159265359f * k * k) / (2.0f * rt__hidden(eye, a2));
+    return *density * (2.0f * light / rt__hidden(light, a2));
+}
+#endif
+
+/* What a surface that is neither glass nor a perfect mirror does at one of its points. */
+typedef struct rt_finish {
+    rt_vec3 albedo;
+    float shininess; /* 0: matt */
+    bool metal;      /* shininess above 0: all gloss, tinted by the albedo; else a matt
+                        body under a coat of clear lacquer */
+} rt_finish;
+
+/* What lacquer reflects straight from above, (1.5 - 1)^2 / (1.5 + 1)^2, and flatter: C.
+ * Schlick's approximation of Fresnel's F, 1994. */
+#define RT__LACQUER 0.04f
+
+static inline float rt__fifth_power(float v)
+{
+    return v * v * v * v * v;
+}
+
+static inline float rt__lacquer(float cosine)
+{
+    return RT__LACQUER + (1.0f - RT__LACQUER) * rt__fifth_power(1.0f - cosine);
+}
+
+/* With which probability the way on is drawn from the gloss, and not from the body. */
+static inline float rt__gloss_chance(const rt_finish *finish, rt_vec3 normal,
+                                     rt_vec3 to_eye)
+{
+    if (finish->metal || !(finish->shininess > 0.0f))
+        return finish->metal ? 1.0f : 0.0f;
+    const float f = rt__lacquer(rt_dot(normal, to_eye));
+    return f + 0.25f * (1.0f - f);
+}
+
+/* What part of the light from to_light, times <N,to_light>, is sent to the eye, per
+ * steradian and channel; and in *density, with which rt_sample_finish chooses to_light.
+ *
+ * Of metal albedo . gloss. Of lacquer F . gloss, where F is that of the facets, plus the
+ * body, which has what got through the lacquer twice:
+ *
+ *     albedo / pi . 1.05 (1 - 0.04) (1 - (1 - <N,eye>)^5) (1 - (1 - <N,light>)^5)
+ *
+ * (M. Ashikhmin, P. Shirley, "An anisotropic Phong BRDF model", 2000, with 1.05 = 1 / (1
+ * - 1/21), so that a white body without the coat's reflections would lose nothing.) */
+static inline rt_vec3 rt_scatter(const rt_finish *finish, rt_vec3 normal, rt_vec3 to_eye,
+                                 rt_vec3 to_light, float *density)
+{
+    const float eye = rt_dot(normal, to_eye), light = rt_dot(normal, to_light);
+    const float matt = light * 0.318309886184f;
+    *density = 0.0f;
+    if (!(eye > 0.0f && light > 0.0f))
+        return rt_vec(0.0f, 0.0f, 0.0f);
+    if (!(finish->shininess > 0.0f)) {
+        *density = matt;
+        return rt_scale(finish->albedo, matt);
+    }
+    float of_gloss;
+    const float gloss = rt_gloss(normal, to_eye, to_light, finish->shininess, &of_gloss);
+    const float chance = rt__gloss_chance(finish, normal, to_eye);
+    *density = chance * of_gloss + (1.0f - chance) * matt;
+    if (finish->metal)
+        return rt_scale(finish->albedo, gloss);
+    const rt_vec3 h = rt__unit(rt_add(to_eye, to_light));
+    const float coat = gloss * rt__lacquer(rt_dot(h, to_light));
+    const float body = 1.05f * (1.0f - RT__LACQUER) * matt *
+                       (1.0f - rt__fifth_power(1.0f - light)) *
+                       (1.0f - rt__fifth_power(1.0f - eye));
+    return rt_add(rt_scale(finish->albedo, body), rt_vec(coat, coat, coat));
+}
+
+/* A direction to go on in, drawn with the density above from r1, r2 in (0, 1). Which of
+ * the two, r1 decides, and what is left of it serves once more. */
+static inline rt_vec3 rt_sample_finish(const rt_finish *finish, rt_vec3 normal,
+                                       rt_vec3 to_eye, float r1, float r2)
+{
+    const float chance = rt__gloss_chance(finish, normal, to_eye);
+    if (r1 < chance)
+        return rt_sample_gloss(normal, to_eye, finish->shininess, r1 / chance, r2);
+    return rt_sample_cosine(normal, (r1 - chance) / (1.0f - chance), r2);
+}
+
+/* ====================================================================================
+ * Chapter 14. A lens and a sky
+ * ==================================================================================== */
+
+/* A lens in the place of the pinhole. */
+typedef struct rt_lens {
+    float radius; /* of its opening; 0: a pinhole */
+    float focus;  /* above 0: how far away, along the axis, is the plane that is sharp */
+} rt_lens;
+
+static inline rt_ray rt__film_lens_ray(const rt__film *film, const rt_lens *lens,
+                                       const rt_ray *ray, float r1, float r2)
+{
+    const rt_vec3 right = rt_to_float(film->right), top = rt_to_float(film->top);
+    const float along = rt_dot(ray->direction, rt_to_float(film->forward));
+    if (!(along > 0.0f)) /* no camera: see rt_camera_ray */
+        return *ray;
+    const float radius = lens->radius * sqrtf(r2);
+    float sine, cosine;
+    rt_sincos(r1, &sine, &cosine);
+    const rt_vec3 aside =
+        rt_add(rt_scale(right, radius * cosine), rt_scale(top, radius * sine));
+    const rt_vec3 sharp = rt_scale(ray->direction, lens->focus / along);
+    rt_ray result;
+    result.origin = rt_add(ray->origin, aside);
+    result.direction = rt_normalize(rt_sub(sharp, aside));
+    return result;
+}
+
+/* The ray of a camera with a lens; *pinhole is that of its pinhole, rt_camera_ray, and
+ * r1, r2 are uniform in (0, 1).
+ *
+ * A thin lens sends all rays from one point of the sharp plane to one point of the film,
+ * wherever they go through it; and the ray through its middle goes straight on. So the
+ * pinhole's ray tells which point it is, and the ray from any other point of the lens
+ * goes there, too. Points of the lens are uniform on a disc: its radius times sqrt(r2),
+ * in the direction r1. What is off the plane is seen by each of them in another place. */
+#ifndef rt_lens_ray
+static inline rt_ray rt_lens_ray(const rt_camera *camera, const rt_lens *lens,
+                                 const rt_ray *pinhole, float r1, float r2)
+{
+    const rt__film film = rt__film_of(camera, 1, 1);
+    return rt__film_lens_ray(&film, lens, pinhole, r1, r2);
+}
+#endif
+
+/* The light that comes from where nothing is hit: the background, or in its place the sky
+ * in that direction. scene->sky may be any function of a unit vector; what it returns is
+ * radiance in linear RGB, and counts as 0 where it is negative or NaN, as 1e15 where it
+ * is more. It is called on many threads at once. What is small and bright, as the sun,
+ * had better be an rt_lamp far away, for which rays can aim. */
+static inline float rt__at_most(float v, float most)
+{
+    return v > 0.0f ? v < most ? v : most : 0.0f; /* NaN: 0 */
+}
+
+static inline rt_vec3 rt_sky(const rt_scene *scene, rt_vec3 direction)
+{
+    if (!scene->sky)
+        return scene->background;
+    const rt_vec3 light = scene->sky(scene->sky_data, rt_normalize(direction));
+    return rt_vec(rt__at_most(light.x, 1e15f), rt__at_most(light.y, 1e15f),
+                  rt__at_most(light.z, 1e15f));
+}
+
+/* ====================================================================================
+ * Chapter 15. Patterns
+ *
+ * A pattern is an albedo that depends on where one looks: a function of the point, which
+ * is the whole chapter. It is called on many threads at once. What it returns counts as 0
+ * where it is negative or NaN, and as 1 where it is more: a surface sends back no light
+ * that it did not get.
+ * ==================================================================================== */
+
+static inline rt_vec3 rt_albedo(const rt_surface *surface, const rt_hit *hit)
+{
+    if (!surface->pattern)
+        return hit->material->albedo;
+    const rt_vec3 rho = surface->pattern(surface->pattern_data, hit->point, hit->normal);
+    return rt_vec(rt__at_most(rho.x, 1.0f), rt__at_most(rho.y, 1.0f),
+                  rt__at_most(rho.z, 1.0f));
+}
+
+/* ====================================================================================
+ * Part two, all of it together
+ * ==================================================================================== */
+
+/* What a path does at one of its points: for rt_trace_pixel. */
+typedef enum rt_event {
+    RT_EVENT_GONE,   /* it has left the scene, for the background or the sky */
+    RT_EVENT_MATT,   /* it goes on by chance: from a matt surface, or the matt body of */
+    RT_EVENT_GLOSS,  /* a coated one; from the gloss, */
+    RT_EVENT_MIRROR, /* or by a perfect mirror; */
+    RT_EVENT_REFLECTED, /* from glass, */
+    RT_EVENT_REFRACTED, /* or through its surface */
+    RT_EVENT_LAMP       /* it ends at a lamp with a size */
+} rt_event;
+
+static inline rt_finish rt__finish_of(const rt_surface *surface, const rt_hit *hit)
+{
+    rt_finish finish;
+    finish.albedo = rt_albedo(surface, hit);
+    finish.shininess = surface->shininess;
+    finish.metal = hit->material->mirror;
+    if (finish.metal && rt_is_zero(finish.albedo)) /* as in chapter 6 */
+        finish.albedo = rt_vec(1.0f, 1.0f, 1.0f);
+    return finish;
+}
+
+/* rt_lambert for a surface with gloss. */
+static inline rt_vec3 rt__glossy_point(const rt_finish *finish, rt_vec3 normal,
+                                       rt_vec3 to_eye, rt_vec3 to_light,
+                                       rt_vec3 intensity)
+{
+    const float dd = rt_dot(to_light, to_light);
+    if (!(dd > 1e-20f && dd <= FLT_MAX))
+        return rt_vec(0.0f, 0.0f, 0.0f);
+    float density;
+    const rt_vec3 f = rt_scatter(finish, normal, to_eye,
+                                 rt_scale(to_light, 1.0f / sqrtf(dd)), &density);
+    return rt_scale(rt_mul(f, intensity), 1.0f / dd);
+}
+
+/* Tell rt_trace_pixel, if it listens, what the ray has met and what light that gives;
+ * what came of the last question for a light or, light being -1, for a lamp; and how the
+ * path goes on. They are at the end. */
+static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, int lamp,
+                                   rt_vec3 light, float weight);
+static inline void rt__note_light(const rt_scene *scene, int light, int lamp, rt_vec3 end,
+                                  rt_vec3 sent, float weight);
+static inline void rt__note_event(const rt_scene *scene, rt_event event, bool inside,
+                                  float density);
+
+static inline bool rt__is_watched(const rt_scene *scene)
+{
+    return scene->bvh && scene->bvh->path;
+}
+
+/* rt_direct on any surface but glass and perfect mirrors: the lights that are points. */
+static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit,
+                                        const rt_finish *finish, rt_vec3 to_eye,
+                                        rt_rng *rng)
+{
+    rt_vec3 sum = rt_vec(0.0f, 0.0f, 0.0f);
+    for (int i = 0; i < scene->light_count; i++) {
+        const rt_light *light = &scene->lights[i];
+        const rt_vec3 to_light = rt_sub(light->position, hit->point);
+        if (!(rt_dot(hit->normal, to_light) > 0.0f))
+            continue;
+        rng->rays++;
+        rt_vec3 sent = rt_vec(0.0f, 0.0f, 0.0f);
+        if (rt_visible(scene, hit->point, hit->normal, light->position))
+            sent =
+                finish->shininess > 0.0f
+                    ? rt__glossy_point(finish, hit->normal, to_eye, to_light,
+                                       light->intensity)
+                    : rt_lambert(finish->albedo, hit->normal, to_light, light->intensity);
+        sum = rt_add(sum, sent);
+        if (rt__is_watched(scene))
+            rt__note_light(scene, i, -1, light->position, sent, 1.0f);
+    }
+    return sum;
+}
+
+/* The same for the lamps that have a size: to each of them one direction, with the weight
+ * that rt_mis gives it, since rt_sample_finish might have found it, too. */
+static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
+                                       const rt_finish *finish, rt_vec3 to_eye,
+                                       rt_rng *rng)
+{
+    rt_vec3 sum = rt_vec(0.0f, 0.0f, 0.0f);
+    for (int i = 0; i < scene->lamp_count; i++) {
+        const rt_lamp *lamp = &scene->lamps[i];
+        const float r1 = rt_random(rng);
+        const float r2 = rt_random(rng);
+        const rt_vec3 end = rt_sample_lamp(lamp, hit->point, r1, r2);
+        const rt_vec3 toward = rt__unit(rt_sub(end, hit->point));
+        const float aimed = rt_lamp_density(lamp, hit->point, toward);
+        float density;
+        const rt_vec3 f = rt_scatter(finish, hit->normal, to_eye, toward, &density);
+        if (!(aimed > 0.0f && density > 0.0f))
+            continue; /* from within the lamp, or behind the surface */
+        rng->rays++;
+        rt_ray way; /* on which no other lamp may stand, either */
+        way.origin = hit->point;
+        way.direction = rt_sub(end, hit->point);
+        const bool seen = rt_visible(scene, hit->point, hit->normal, end) &&
+                          rt__nearest_lamp(scene, &way, 1.0f, i) < 0;
+        const float weight = rt_mis(aimed, density);
+        rt_vec3 sent = rt_vec(0.0f, 0.0f, 0.0f);
+        if (seen)
+            sent = rt_scale(rt_mul(f, rt_lamp_radiance(lamp)), weight / aimed);
+        sum = rt_add(sum, sent);
+        if (rt__is_watched(scene))
+            rt__note_light(scene, -1, i, end, sent, weight);
+    }
+    return sum;
+}
+
+/* rt_radiance, with all of part two: the light that comes back along the ray, whose
+ * direction must have length 1, an estimate from one path. Without surfaces, lamps and
+ * sky it has the bits of rt_radiance.
+ *
+ * A ray that meets glass has one question too many, for part of the light comes from the
+ * reflection and part from behind: F and 1 - F. It asks one of the two, by a throw of a
+ * coin that shows "reflected" with probability F. So both need no factor.
+ *
+ * A lamp may be found in two ways: a surface aims at it, and a path meets it by chance.
+ * Both are needed, and rt_mis says how much each counts. After a camera, a mirror or
+ * glass the direction left no choice, so nobody could have aimed: all of it counts. So
+ * that both ways find light after as many bounces, one more ray is sent after the last
+ * bounce, for lamps and emission only.
+ *
+ * bounces are as in rt_radiance; a surface of glass counts as one, so a ray needs two to
+ * get through a ball. A pair of random numbers is drawn for each lamp at each surface
+ * that aims, then one for the way on. Shadow rays do not go through glass: the light
+ * behind it, a caustic, is found by chance, and of an rt_light never.
+ *
+ * Radiance within glass is eta^2 of what it is outside. That factor is left out, for it
+ * cancels when the path leaves the glass; a camera inside sees all too dark by it. Shapes
+ * of glass must not overlap or touch: a ray that is inside one knows of no other. */
+static inline rt_vec3 rt_radiance_mis(const rt_scene *scene, const rt_ray *camera_ray,
+                                      int bounces, rt_rng *rng)
+{
+    const int last = bounces > 0 ? bounces : 0;
+    const bool one_more = scene->lamp_count > 0 || scene->surfaces;
+    const bool watched = rt__is_watched(scene);
+    rt_ray ray = *camera_ray;
+    rt_vec3 sum = rt_vec(0.0f, 0.0f, 0.0f);
+    rt_vec3 throughput = rt_vec(1.0f, 1.0f, 1.0f);
+    rt_vec3 from = ray.origin; /* the point that the ray has left */
+    float density = 0.0f;      /* of its direction; 0: there was no choice */
+    for (int bounce = 0;; bounce++) {
+        rt_hit hit;
+        rng->rays++;
+        rt__tick(rng->watch);
+        const bool found = rt_intersect(scene, &ray, &hit);
+        const int lamp = rt__nearest_lamp(scene, &ray, found ? hit.t : FLT_MAX, -1);
+        if (lamp >= 0) {
+            const rt_lamp *met = &scene->lamps[lamp];
+            const float weight =
+                density > 0.0f
+                    ? rt_mis(density, rt_lamp_density(met, from, ray.direction))
+                    : 1.0f;
+            const rt_vec3 light = rt_scale(rt_lamp_radiance(met), weight);
+            if (watched)
+                rt__note_vertex(scene, throughput, lamp, light, weight);
+            return rt_add(sum, rt_mul(throughput, light));
+        }
+        rt_vec3 light = rt_vec(0.0f, 0.0f, 0.0f);
+        const rt_surface *surface = NULL;
+        if (found) {
+            surface = rt_surface_of(scene, &hit);
+            light = surface->emission;
+        } else if (bounce <= last) {
+            light = rt_sky(scene, ray.direction);
+        }
+        if (watched)
+            rt__note_vertex(scene, throughput, -1, light, 1.0f);
+        sum = rt_add(sum, rt_mul(throughput, light));
+        if (!found || bounce > last)
+            return sum;
+
+        const rt_vec3 n = hit.normal, to_eye = rt_scale(ray.direction, -1.0f);
+        const rt_finish finish = rt__finish_of(surface, &hit);
+        const bool shiny = finish.shininess > 0.0f;
+        rt_vec3 direction;
+        rt_event event;
+        bool inside = false;
+        if (surface->eta > 0.0f) {
+            inside = rt_is_inside(scene, &hit);
+            const float eta = inside ? 1.0f / surface->eta : surface->eta;
+            if (inside)
+                throughput =
+                    rt_mul(throughput, rt_transmittance(surface->absorption, hit.t));
+            const float coin = rt_random(rng);
+            rt_random(rng); /* not used: numbers come in pairs, see chapter 9 */
+            event = RT_EVENT_REFRACTED;
+            if (coin < rt_fresnel(rt_dot(n, to_eye), eta) ||
+                !rt_refract(ray.direction, n, eta, &direction)) {
+                direction = rt_reflect(ray.direction, n);
+                event = RT_EVENT_REFLECTED;
+            }
+            density = 0.0f;
+        } else if (finish.metal && !shiny) {
+            direction = rt_reflect(ray.direction, n);
+            throughput = rt_mul(throughput, finish.albedo);
+            event = RT_EVENT_MIRROR;
+            density = 0.0f;
+        } else {
+            const rt_vec3 direct =
+                rt_add(rt__direct_points(scene, &hit, &finish, to_eye, rng),
+                       rt__direct_lamps(scene, &hit, &finish, to_eye, rng));
+            sum = rt_add(sum, rt_mul(throughput, direct));
+            if (bounce >= last && !one_more)
+                return sum;
+            const float r1 = rt_random(rng);
+            const float r2 = rt_random(rng);
+            event = r1 < rt__gloss_chance(&finish, n, to_eye) ? RT_EVENT_GLOSS
+                                                              : RT_EVENT_MATT;
+            direction = rt_sample_finish(&finish, n, to_eye, r1, r2);
+            const rt_vec3 f = rt_scatter(&finish, n, to_eye, direction, &density);
+            if (!(density > 0.0f))
+                return sum; /* below the surface */
+            throughput = rt_mul(throughput, shiny ? rt_scale(f, 1.0f / density)
+                                                  : finish.albedo); /* the same */
+        }
+        if (watched)
+            rt__note_event(scene, event, inside, density);
+        if ((bounce >= last && !one_more) || rt__is_spent(throughput))
+            return sum;
+        if (bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
+            const float chance = rt__chance(throughput), r = rt_random(rng);
+            rt_random(rng);
+            if (r >= chance)
+                return sum;
+            throughput = rt_scale(throughput, 1.0f / chance);
+        }
+        from = hit.point;
+        ray.origin = rt_leave(hit.point, n, direction);
+        ray.direction = direction;
+    }
+}
+
+/* rt_first_look, with all of part two: the first surface that is no mirror and no glass.
+ * Through glass it looks straight on, or where that cannot be, along the reflection.
+ * direct is what has no noise: lights that are points, and what shines by itself. */
+static inline rt_guide rt__first_look_mis(const rt_scene *scene, const rt_ray *camera_ray,
+                                          int bounces, rt_rng *rng)
+{
+    rt_ray ray = *camera_ray;
+    rt_vec3 throughput = rt_vec(1.0f, 1.0f, 1.0f);
+    rt_guide guide;
+    memset(&guide, 0, sizeof guide);
+    for (int bounce = 0;; bounce++) {
+        rt_hit hit;
+        const bool found = rt_intersect(scene, &ray, &hit);
+        const int lamp = rt__nearest_lamp(scene, &ray, found ? hit.t : FLT_MAX, -1);
+        if (!found || lamp >= 0) {
+            guide.direct =
+                rt_mul(throughput, lamp >= 0 ? rt_lamp_radiance(&scene->lamps[lamp])
+                                             : rt_sky(scene, ray.direction));
+            return guide;
+        }
+        const rt_surface *surface = rt_surface_of(scene, &hit);
+        const rt_finish finish = rt__finish_of(surface, &hit);
+        const bool glass = surface->eta > 0.0f;
+        const bool mirror = finish.metal && !(finish.shininess > 0.0f) && !glass;
+        const rt_vec3 to_eye = rt_scale(ray.direction, -1.0f);
+        rt_vec3 direction = rt_reflect(ray.direction, hit.normal);
+        guide.direct = rt_mul(throughput, surface->emission);
+        if (glass) {
+            const bool inside = rt_is_inside(scene, &hit);
+            const float eta = inside ? 1.0f / surface->eta : surface->eta;
+            if (inside)
+                throughput =
+                    rt_mul(throughput, rt_transmittance(surface->absorption, hit.t));
+            if (rt_refract(ray.direction, hit.normal, eta, &direction))
+                throughput = rt_scale(throughput,
+                                      1.0f - rt_fresnel(rt_dot(hit.normal, to_eye), eta));
+        } else {
+            if (!mirror)
+                guide.direct =
+                    rt_add(guide.direct,
+                           rt_mul(throughput,
+                                  rt__direct_points(scene, &hit, &finish, to_eye, rng)));
+            throughput = rt_mul(throughput, finish.albedo);
+        }
+        if (!(mirror || glass) || bounce >= bounces || bounce >= RT__ROULETTE) {
+            guide.normal = hit.normal;
+            guide.point = hit.point;
+            guide.albedo = throughput;
+            return guide;
+        }
+        ray.origin = rt_leave(hit.point, hit.normal, direction);
+        ray.direction = direction;
+    }
+}
+
+/* ====================================================================================
  * Pictures
  * ==================================================================================== */
 
@@ -1712,8 +2607,9 @@ typedef struct rt_options {
     float seconds;      /* stop after this time, with at least one sample; 0: never. (The
                            processor's time without OpenMP, if the C library is older than
                            C11 or told to be) */
-    int lanes; /* rays that rt_render traces at a time: 1, as chapters 1 to 7 do, or all
-                  that rt_lane_count(0) has; 0: all. The same picture */
+    int lanes; /* rays that rt_render traces at a time: 1, as the chapters do, or all that
+                  rt_lane_count(0) has; 0: all. The same picture */
+    rt_lens lens; /* chapter 14; radius 0: a pinhole */
 } rt_options;
 
 /* How it went; rt_status_text says it in words. */
@@ -1737,7 +2633,10 @@ typedef enum rt_status {
     RT_BAD_BOX,
     RT_BAD_LIGHT,
     RT_BAD_BACKGROUND,
-    RT_BAD_GUIDES
+    RT_BAD_GUIDES,
+    RT_BAD_SURFACE,
+    RT_BAD_LAMP,
+    RT_BAD_LENS
 } rt_status;
 
 /* The colour seen through the point (x, y) of the film, an estimate with the numbers of
@@ -1823,21 +2722,29 @@ typedef struct rt_vertex {
     rt_vec3 throughput; /* how much of the light from here arrives at the camera */
     rt_vec3 light;      /* direct light here, or background; black on a mirror. It adds
                            throughput . light to the value of the sample */
+    rt_event event;     /* how the path goes on; if it ends, what the surface is */
+    bool inside;        /* part two: the ray has come through glass; */
+    float density;      /* of the direction in which it goes on, 0: it had no choice; */
+    int lamp;           /* the lamp that it has met, -1: none; */
+    float weight;       /* how much of that lamp counts, see rt_mis */
 } rt_vertex;
 
 /* A question from one point of a path: does it see this light? */
 typedef struct rt_shadow {
-    int vertex, light; /* their numbers */
+    int vertex, light; /* their numbers; light -1: a lamp with a size, */
+    int lamp;          /* this one; else -1 */
     rt_ray ray;        /* from the point, to the light at t = 1 */
     float cosine, dd;  /* <N,L> and d^2 */
     int blocker; /* the nearest shape in between, at t; -1: none, the light is seen */
     float t;
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
+    float weight;       /* of a lamp, already in light_sent: see rt_mis */
 } rt_shadow;
 
 /* All that happened to one sample of a pixel. The arrays are yours; say how long they
  * are. What does not fit is dropped, but still counted. There is at most one vertex more
- * than bounces, and for each as many shadows as there are lights. */
+ * than bounces, two with lamps or surfaces, and for each as many shadows as there are
+ * lights and lamps. */
 typedef struct rt_path {
     rt_vertex *vertices;
     int max_vertices, vertex_count;
@@ -1846,7 +2753,8 @@ typedef struct rt_path {
     rt_vec3 value; /* of the sample: the sum of throughput . light over the vertices */
     uint32_t rays; /* how many it took */
     const rt_scene *scene; /* while it is traced, */
-    int bounces;           /* and with so many */
+    int bounces;           /* and with so many; */
+    bool told;             /* by rt_radiance_mis, which tells what it does */
 } rt_path;
 
 /* Follow one sample of the pixel (x, y) of the image once more, and write it down:
@@ -1857,7 +2765,8 @@ typedef struct rt_path {
  *
  * What is written down are the questions that rt_radiance asks of the scene, by
  * rt_intersect and rt_occluded - or a routine of yours in their place, as long as it asks
- * by these two. So nothing is slower where nobody looks.
+ * by these two. So nothing is slower where nobody looks. rt_radiance_mis tells by itself
+ * what it does.
  *
  * Returns the same errors as rt_render, or RT_BAD_PIXEL; *path is then untouched. */
 RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
@@ -1878,7 +2787,8 @@ RTDEF void rt_free_bvh(rt_bvh *bvh);
 
 /* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15,
  * radius > 0, min <= max, albedo 0 to 1, intensity and background not negative, no
- * count negative, no array missing, bvh NULL or built for as many shapes. Otherwise
+ * count negative, no array missing, bvh NULL or built for as many shapes; surfaces and
+ * lamps as chapters 11 to 13 want them. Otherwise
  * what is wrong, and in *index, unless NULL, the number of the offender in its array.
  * rt_render asks it first. */
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index);
@@ -1907,24 +2817,6 @@ RTDEF const char *rt_status_text(rt_status status);
 
 /* ---- for rt_trace_pixel ---------------------------------------------------------- */
 
-/* The number of the shape that was hit; a routine of your own need not know it, so then
- * it is the one that has the material. */
-static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
-{
-#ifdef rt_intersect
-    for (int i = 0; i < scene->sphere_count; i++)
-        if (&scene->spheres[i].material == hit->material)
-            return i;
-    for (int i = 0; i < scene->box_count; i++)
-        if (&scene->boxes[i].material == hit->material)
-            return scene->sphere_count + i;
-    return -1;
-#else
-    (void)scene;
-    return hit->shape;
-#endif
-}
-
 /* The part of the light that arrives by way of vertex number n, as in rt_radiance. */
 static inline rt_vec3 rt__throughput(const rt_path *path, int n)
 {
@@ -1950,16 +2842,27 @@ static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
         rt_vertex *v = &path->vertices[n];
         memset(v, 0, sizeof *v);
         v->ray = *ray;
-        v->throughput = n == 0 ? rt_vec(1.0f, 1.0f, 1.0f) : rt__throughput(path, n - 1);
+        v->throughput =
+            n == 0 || path->told ? rt_vec(1.0f, 1.0f, 1.0f) : rt__throughput(path, n - 1);
         v->shape = -1;
+        v->lamp = -1;
         if (found) {
             v->hit = *hit;
             v->shape = rt__shape_number(scene, hit);
+            v->event = hit->material->mirror ? RT_EVENT_MIRROR : RT_EVENT_MATT;
         } else {
             v->light = scene->background;
         }
     }
     return found;
+}
+
+/* How the light stands to the surface. */
+static inline void rt__set_shadow(rt_shadow *shadow, const rt_vertex *v, rt_vec3 to_light)
+{
+    shadow->dd = rt_dot(to_light, to_light);
+    shadow->cosine =
+        shadow->dd > 0.0f ? rt_dot(v->hit.normal, to_light) / sqrtf(shadow->dd) : 0.0f;
 }
 
 static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
@@ -1976,34 +2879,83 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
     here.vertex = vertex;
     here.ray = *ray;
     here.blocker = -1;
-    /* which light? the one at the end of the ray */
-    const rt_vec3 end = rt_at(ray, 1.0f);
-    float least = FLT_MAX;
-    for (int i = 0; i < scene->light_count; i++) {
-        const float distance = rt_length(rt_sub(scene->lights[i].position, end));
-        if (distance < least) {
-            least = distance;
-            here.light = i;
-        }
-    }
-    const rt_light *light = &scene->lights[here.light];
-    const rt_vec3 to_light = rt_sub(light->position, v->hit.point);
-    here.dd = rt_dot(to_light, to_light);
-    here.cosine =
-        here.dd > 0.0f ? rt_dot(v->hit.normal, to_light) / sqrtf(here.dd) : 0.0f;
+    here.lamp = -1;
     rt_hit between;
     memset(&between, 0, sizeof between); /* an rt_intersect of your own may leave it so */
-    if (!blocked) {
-        here.light_sent = rt_lambert(v->hit.material->albedo, v->hit.normal, to_light,
-                                     light->intensity);
-        v->light = rt_add(v->light, here.light_sent);
-    } else if (rt_intersect(path->scene, ray, &between)) {
+    if (blocked && rt_intersect(path->scene, ray, &between)) {
         here.blocker = rt__shape_number(scene, &between);
         here.t = between.t;
+    }
+    if (!path->told) { /* which light? the one at the end of the ray */
+        const rt_vec3 end = rt_at(ray, 1.0f);
+        float least = FLT_MAX;
+        for (int i = 0; i < scene->light_count; i++) {
+            const float distance = rt_length(rt_sub(scene->lights[i].position, end));
+            if (distance < least) {
+                least = distance;
+                here.light = i;
+            }
+        }
+        const rt_light *light = &scene->lights[here.light];
+        const rt_vec3 to_light = rt_sub(light->position, v->hit.point);
+        rt__set_shadow(&here, v, to_light);
+        if (!blocked)
+            here.light_sent = rt_lambert(v->hit.material->albedo, v->hit.normal, to_light,
+                                         light->intensity);
+        v->light = rt_add(v->light, here.light_sent);
     }
     if (n < path->max_shadows)
         path->shadows[n] = here;
     return blocked;
+}
+
+/* What rt_radiance_mis tells. */
+static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, int lamp,
+                                   rt_vec3 light, float weight)
+{
+    const rt_path *path = scene->bvh->path;
+    if (path->vertex_count > path->max_vertices)
+        return;
+    rt_vertex *v = &path->vertices[path->vertex_count - 1];
+    v->throughput = throughput;
+    v->light = light;
+    v->lamp = lamp;
+    v->weight = weight;
+    if (lamp >= 0) { /* before whatever shape there is */
+        v->event = RT_EVENT_LAMP;
+        v->shape = -1;
+        memset(&v->hit, 0, sizeof v->hit);
+    }
+}
+
+static inline void rt__note_light(const rt_scene *scene, int light, int lamp, rt_vec3 end,
+                                  rt_vec3 sent, float weight)
+{
+    const rt_path *path = scene->bvh->path;
+    if (path->vertex_count > path->max_vertices)
+        return;
+    rt_vertex *v = &path->vertices[path->vertex_count - 1];
+    v->light = rt_add(v->light, sent);
+    if (path->shadow_count > path->max_shadows)
+        return;
+    rt_shadow *here = &path->shadows[path->shadow_count - 1];
+    here->light = light;
+    here->lamp = lamp;
+    here->light_sent = sent;
+    here->weight = weight;
+    rt__set_shadow(here, v, rt_sub(end, v->hit.point));
+}
+
+static inline void rt__note_event(const rt_scene *scene, rt_event event, bool inside,
+                                  float density)
+{
+    const rt_path *path = scene->bvh->path;
+    if (path->vertex_count > path->max_vertices)
+        return;
+    rt_vertex *v = &path->vertices[path->vertex_count - 1];
+    v->event = event;
+    v->inside = inside;
+    v->density = density;
 }
 
 #if defined(__cplusplus) && defined(__GNUC__)
@@ -2095,6 +3047,17 @@ RTDEF const char *rt_status_text(rt_status status)
                "rt_check_scene tells which light";
     case RT_BAD_GUIDES:
         return "guides: set image.half and image.guides before it is rendered";
+    case RT_BAD_SURFACE:
+        return "surface: make eta 0 or 1 to 4, shininess 0 to 1e6, absorption and "
+               "emission 0 to 1e15; rt_check_scene tells of which shape";
+    case RT_BAD_LAMP:
+        return "lamp: make its numbers at most 1e15, no intensity negative, and radius "
+               "at "
+               "least 1e-6, or 0 with sides u and v across each other, of an area of "
+               "1e-12 at least; rt_check_scene tells which lamp";
+    case RT_BAD_LENS:
+        return "lens: make radius 0 to 1e15 and, unless it is 0, focus above 0 and at "
+               "most 1e15";
     case RT_BAD_BACKGROUND: return "background: make it 0 to 1e15 in red, green and blue";
     }
     return "unknown status";
@@ -2115,6 +3078,23 @@ static inline bool rt__good_place(rt_vec3 v)
     return rt__within(v, -RT__LARGEST, RT__LARGEST);
 }
 
+static inline bool rt__good_surface(const rt_surface *s)
+{
+    return (s->eta == 0.0f || (s->eta >= 1.0f && s->eta <= 4.0f)) &&
+           s->shininess >= 0.0f && s->shininess <= 1e6f &&
+           rt__within(s->absorption, 0.0f, RT__LARGEST) &&
+           rt__within(s->emission, 0.0f, RT__LARGEST);
+}
+
+static inline bool rt__good_lamp(const rt_lamp *l)
+{
+    if (!(rt__good_place(l->center) && rt__within(l->intensity, 0.0f, RT__LARGEST) &&
+          rt__good_place(l->u) && rt__good_place(l->v)))
+        return false;
+    return l->radius == 0.0f ? rt__lamp_area(l) >= 1e-12f
+                             : l->radius >= 1e-6f && l->radius <= RT__LARGEST;
+}
+
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
 {
     int nowhere = 0;
@@ -2123,7 +3103,8 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
     if (!scene || scene->sphere_count < 0 ||
         (scene->sphere_count > 0 && !scene->spheres) || scene->box_count < 0 ||
         (scene->box_count > 0 && !scene->boxes) || scene->light_count < 0 ||
-        (scene->light_count > 0 && !scene->lights))
+        (scene->light_count > 0 && !scene->lights) || scene->lamp_count < 0 ||
+        (scene->lamp_count > 0 && !scene->lamps))
         return RT_BAD_POINTER;
     for (*i = 0; *i < scene->sphere_count; ++*i) {
         const rt_sphere *s = &scene->spheres[*i];
@@ -2143,6 +3124,13 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
         if (!(rt__good_place(l->position) && rt__within(l->intensity, 0.0f, RT__LARGEST)))
             return RT_BAD_LIGHT;
     }
+    const int shapes = scene->surfaces ? scene->sphere_count + scene->box_count : 0;
+    for (*i = 0; *i < shapes; ++*i)
+        if (!rt__good_surface(&scene->surfaces[*i]))
+            return RT_BAD_SURFACE;
+    for (*i = 0; *i < scene->lamp_count; ++*i)
+        if (!rt__good_lamp(&scene->lamps[*i]))
+            return RT_BAD_LAMP;
     *i = 0;
     if (!rt__within(scene->background, 0.0f, RT__LARGEST))
         return RT_BAD_BACKGROUND;
@@ -2606,11 +3594,35 @@ static inline rt_ray rt__ray(const rt__job *job, float x, float y)
 #endif
 }
 
+/* The ray through a point of the film; with a lens, through a random point of it. */
+static inline rt_ray rt__random_ray(const rt__job *job, float x, float y, rt_rng *rng)
+{
+    const rt_ray ray = rt__ray(job, x, y);
+    const rt_lens *lens = &job->options.lens;
+    if (!(lens->radius > 0.0f))
+        return ray;
+    const float r1 = rt_random(rng);
+    const float r2 = rt_random(rng);
+#ifdef rt_lens_ray
+    return rt_lens_ray(job->camera, lens, &ray, r1, r2);
+#else
+    return rt__film_lens_ray(&job->film, lens, &ray, r1, r2);
+#endif
+}
+
+/* Does it take more than part one, for light to find its way? */
+static inline bool rt__is_part_two(const rt_scene *scene)
+{
+    return scene->surfaces || scene->lamp_count > 0 || scene->sky;
+}
+
 static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *rng)
 {
     const rt__job *job = (const rt__job *)context;
-    const rt_ray ray = rt__ray(job, x, y);
-    return rt_radiance(job->scene, &ray, job->options.bounces, rng);
+    const rt_ray ray = rt__random_ray(job, x, y, rng);
+    const int bounces = job->options.bounces;
+    return rt__is_part_two(job->scene) ? rt_radiance_mis(job->scene, &ray, bounces, rng)
+                                       : rt_radiance(job->scene, &ray, bounces, rng);
 }
 
 /* The first look of the sample whose numbers these are. */
@@ -2619,8 +3631,11 @@ static inline rt_guide rt__guide(const rt__job *job, int i, rt_rng rng)
     const int width = job->image->width, column = i % width, row = i / width;
     const float dx = rt_random(&rng);
     const float dy = rt_random(&rng);
-    const rt_ray ray = rt__ray(job, (float)column + dx, (float)row + dy);
-    return rt_first_look(job->scene, &ray, job->options.bounces, &rng);
+    const rt_ray ray = rt__random_ray(job, (float)column + dx, (float)row + dy, &rng);
+    const int bounces = job->options.bounces;
+    return rt__is_part_two(job->scene)
+               ? rt__first_look_mis(job->scene, &ray, bounces, &rng)
+               : rt_first_look(job->scene, &ray, bounces, &rng);
 }
 
 static inline uint64_t rt__step_pixels(const rt__job *job, int sample, int first,
@@ -3091,6 +4106,10 @@ static inline rt_status rt__set_job(rt__job *job, const rt_scene *scene,
     if (job->options.lanes != 0 &&
         job->options.lanes != rt_lane_count(job->options.lanes))
         return RT_BAD_LANES;
+    const rt_lens *lens = &job->options.lens;
+    if (!(lens->radius >= 0.0f && lens->radius <= RT__LARGEST &&
+          (lens->radius == 0.0f || (lens->focus > 0.0f && lens->focus <= RT__LARGEST))))
+        return RT_BAD_LENS;
     job->image = image;
     job->scene = scene;
     job->camera = camera;
@@ -3127,6 +4146,7 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
     job.scene = &watched;
     path->scene = scene;
     path->bounces = job.options.bounces;
+    path->told = rt__is_part_two(scene);
     path->vertex_count = path->shadow_count = 0;
     rt_rng rng = rt__start(&job, sample, y * image->width + x);
     path->value = rt__look(&job, y * image->width + x, &rng);
@@ -3655,7 +4675,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     }
     job.scene = &indexed;
 #if RT__LANES > 1
-    if (lanes > 1)
+    if (lanes > 1 && !rt__is_part_two(scene) && !(job.options.lens.radius > 0.0f))
         status = rt__run_packets(&job);
     else
 #endif

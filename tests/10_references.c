@@ -7,7 +7,7 @@
 #include "scene_file.h"
 #include "test.h"
 
-enum { PASSES = 32, SAMPLES = 4, BLOCK = 8 };
+enum { PASSES = 32, SAMPLES = 4, MORE_SAMPLES = 16, BLOCK = 8 };
 
 static double channel(rt_vec3 v, int k)
 {
@@ -57,9 +57,12 @@ static void check_scene(const char *name)
     snprintf(path, sizeof path, "tests/references/ref/%s.se.pfm", name);
     rt_vec3 *error = read_pfm(path, width, height);
     rt_image images[PASSES];
+    /* what only chance finds, as light by way of a mirror, is rare and bright: sigma is known
+     * too badly from few samples */
+    const int samples = file.scene.lamp_count > 0 ? MORE_SAMPLES : SAMPLES;
     for (int pass = 0; pass < PASSES; pass++) {
         images[pass] = new_image(width, height);
-        assert_int_equal(render_scene(&file, SAMPLES, (uint32_t)pass, &images[pass]),
+        assert_int_equal(render_scene(&file, samples, (uint32_t)pass, &images[pass]),
                          RT_OK);
     }
 

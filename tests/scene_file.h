@@ -15,7 +15,10 @@ typedef struct scene_file {
     rt_scene scene; /* of the shapes and the light below */
     rt_sphere *spheres;
     rt_box *boxes;
-    rt_light light;
+    rt_surface *surfaces;
+    rt_light light; /* or, with a radius, */
+    rt_lamp lamp;
+    rt_lens lens;
     rt_camera camera;
     int width, height, bounces;
     bool mirror_direct; /* mirrors and direct light only: no diffuse bounce */
@@ -68,6 +71,14 @@ static inline double json_number(scene_file *file, const cJSON *parent, const ch
     return cJSON_IsNumber(item) ? item->valuedouble : 0.0;
 }
 
+/* The same, 0 if it is not there. */
+static inline float json_option(scene_file *file, const cJSON *parent, const char *name)
+{
+    return cJSON_GetObjectItemCaseSensitive(parent, name)
+               ? (float)json_number(file, parent, name)
+               : 0.0f;
+}
+
 static inline int json_count(scene_file *file, const cJSON *parent, const char *name)
 {
     const double value = json_number(file, parent, name);
@@ -94,13 +105,25 @@ static inline rt_material json_material(scene_file *file, const cJSON *shape)
     rt_material material;
     material.albedo = json_vector(file, shape, "albedo");
     material.mirror = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(shape, "mirror"));
-    if (material.mirror) /* the schema: reflectance 1, albedo ignored */
+    const float shininess = json_option(file, shape, "shininess");
+    if (material.mirror && !(shininess > 0.0f)) /* the schema: albedo ignored */
         material.albedo = rt_vec(1.0f, 1.0f, 1.0f);
     return material;
 }
 
+static inline rt_surface json_surface(scene_file *file, const cJSON *shape)
+{
+    rt_surface surface = {0};
+    surface.eta = json_option(file, shape, "eta");
+    surface.shininess = json_option(file, shape, "shininess");
+    if (surface.eta != 0.0f || surface.shininess != 0.0f)
+        file->scene.surfaces = file->surfaces; /* part two, chapters 11 and 13 */
+    return surface;
+}
+
 static inline void free_scene(scene_file *file)
 {
+    free(file->surfaces);
     free(file->spheres);
     free(file->boxes);
     memset(file, 0, sizeof *file);
@@ -133,21 +156,31 @@ static inline void json_scene(scene_file *file, const cJSON *json)
     file->camera.fov_y = (float)json_number(file, camera, "fov_y");
     file->light.position = json_vector(file, light, "position");
     file->light.intensity = json_vector(file, light, "intensity");
+    file->lamp.center = file->light.position;
+    file->lamp.intensity = file->light.intensity;
+    file->lamp.radius = json_option(file, light, "radius");
+    const bool lamp = file->lamp.radius != 0.0f;
     file->scene.lights = &file->light;
-    file->scene.light_count = 1;
+    file->scene.light_count = lamp ? 0 : 1;
+    file->scene.lamps = &file->lamp;
+    file->scene.lamp_count = lamp ? 1 : 0;
+    file->lens.radius = json_option(file, camera, "lens_radius");
+    file->lens.focus = json_option(file, camera, "focus");
 
     const size_t sphere_room = (size_t)cJSON_GetArraySize(sphere_list) + 1;
     const size_t box_room = (size_t)cJSON_GetArraySize(box_list) + 1;
     file->spheres = calloc(sphere_room, sizeof *file->spheres);
     file->boxes = calloc(box_room, sizeof *file->boxes);
+    file->surfaces = calloc(sphere_room + box_room, sizeof *file->surfaces);
     file->scene.spheres = file->spheres;
     file->scene.boxes = file->boxes;
-    if (!file->spheres || !file->boxes) {
+    if (!file->spheres || !file->boxes || !file->surfaces) {
         scene_error(file, "scene", "not enough memory");
         return;
     }
     cJSON_ArrayForEach(shape, sphere_list)
     {
+        file->surfaces[file->scene.sphere_count] = json_surface(file, shape);
         rt_sphere *sphere = &file->spheres[file->scene.sphere_count++];
         sphere->center = json_vector(file, shape, "center");
         sphere->radius = (float)json_number(file, shape, "radius");
@@ -155,6 +188,8 @@ static inline void json_scene(scene_file *file, const cJSON *json)
     }
     cJSON_ArrayForEach(shape, box_list)
     {
+        file->surfaces[file->scene.sphere_count + file->scene.box_count] =
+            json_surface(file, shape);
         rt_box *box = &file->boxes[file->scene.box_count++];
         box->min = json_vector(file, shape, "min");
         box->max = json_vector(file, shape, "max");
@@ -209,6 +244,7 @@ static inline rt_status render_scene(const scene_file *file, int samples, uint32
     options.samples = samples;
     options.bounces = file->bounces;
     options.seed = seed;
+    options.lens = file->lens;
     if (file->mirror_direct)
         return rt_render_pixels(scene_mirror_direct, file, &options, image);
     return rt_render(&file->scene, &file->camera, &options, image);
