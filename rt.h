@@ -2139,13 +2139,13 @@ static inline rt_vec3 rt_scatter(const rt_finish *finish, rt_vec3 normal, rt_vec
         return rt_scale(finish->albedo, matt);
     }
     float of_gloss;
-    const float gloss = rt_gloss(normal, to_eye, to_light, finish->shininess, &of_gloss);
+    const float lobe = rt_gloss(normal, to_eye, to_light, finish->shininess, &of_gloss);
     const float chance = rt__gloss_chance(finish, normal, to_eye);
     *density = chance * of_gloss + (1.0f - chance) * matt;
     if (finish->metal)
-        return rt_scale(finish->albedo, gloss);
+        return rt_scale(finish->albedo, lobe);
     const rt_vec3 h = rt__unit(rt_add(to_eye, to_light));
-    const float coat = gloss * rt__lacquer(rt_dot(h, to_light));
+    const float coat = lobe * rt__lacquer(rt_dot(h, to_light));
     const float body = 1.05f * (1.0f - RT__LACQUER) * matt *
                        (1.0f - rt__fifth_power(1.0f - light)) *
                        (1.0f - rt__fifth_power(1.0f - eye));
