@@ -53,12 +53,13 @@
  *     }
  *
  * WHAT IT IS      Spheres, axis-aligned boxes, point lights, mirrors, diffuse surfaces,
- *                 direct and indirect light, on all cores. C99 and C++17, libc and libm.
- * WHAT IT IS NOT  No meshes, no textures, no glass, no lights with a size; no files, no
- *                 windows. It does not print, exit, or keep global state, and allocates
- *                 only for rt_build_bvh and while rt_render or rt_denoise runs.
+ *                 direct and indirect light, on all cores. Part two: glass, gloss,
+ *                 patterns, lamps with a size, a sky, a lens. C99 and C++17, libc, libm.
+ * WHAT IT IS NOT  No meshes; no files, no windows. It does not print, exit, or keep
+ *                 global state, and allocates only for rt_build_bvh and while rt_render
+ *                 or rt_denoise runs.
  *
- * HOW TO READ IT  From top to bottom. Chapters 0 to 10 are plain C, each on top of the
+ * HOW TO READ IT  From top to bottom. Chapters 0 to 15 are plain C, each on top of the
  *                 ones before; demos/demoNN and docs/NN- have the same numbers. The
  *                 machinery that runs them on all cores, several rays at a time, stands
  *                 last, under RT_IMPLEMENTATION.
@@ -126,6 +127,12 @@
  *                 8 many shapes        rt_bvh
  *                 9 less noise         rt_sobol_start
  *                10 clean pictures     rt_guide, rt_first_look, rt_denoise
+ *                11 glass              rt_surface, rt_fresnel, rt_refract
+ *                12 lamps with a size  rt_lamp, rt_sample_lamp, rt_mis
+ *                13 gloss              rt_sample_gloss, rt_gloss, rt_scatter
+ *                14 a lens and a sky   rt_lens, rt_lens_ray, rt_sky
+ *                15 patterns           rt_albedo
+ *                   all of part two    rt_radiance_mis
  *                   pictures           rt_image, rt_options, rt_render, rt_build_bvh
  *
  * Licence (MIT or public domain) at the end of the file; changes in CHANGELOG.md.
