@@ -835,7 +835,8 @@ static void test_the_room_is_asked_shape_by_shape(void **state)
 {
     (void)state;
 #if RT__LANES > 1
-    assert_true(rt__are_few(&scene_indirect, &room_camera));
+    const rt_lens pinhole = {0, 0};
+    assert_true(rt__are_few(&scene_indirect, &room_camera, &pinhole));
 #endif
 }
 
