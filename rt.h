@@ -2313,8 +2313,12 @@ static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit
         if (!(rt_dot(hit->normal, to_light) > 0.0f))
             continue;
         rng->rays++;
+        rt_ray way; /* on which no lamp may stand, either */
+        way.origin = hit->point;
+        way.direction = to_light;
         rt_vec3 sent = rt_vec(0.0f, 0.0f, 0.0f);
-        if (rt_visible(scene, hit->point, hit->normal, light->position))
+        if (rt_visible(scene, hit->point, hit->normal, light->position) &&
+            rt__nearest_lamp(scene, &way, 1.0f, -1) < 0)
             sent =
                 finish->shininess > 0.0f
                     ? rt__glossy_point(finish, hit->normal, to_eye, to_light,
