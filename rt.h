@@ -2267,7 +2267,7 @@ static inline rt_finish rt__finish_of(const rt_surface *surface, const rt_hit *h
     finish.albedo = rt_albedo(surface, hit);
     finish.shininess = surface->shininess;
     finish.metal = hit->material->mirror;
-    if (finish.metal && rt_is_zero(finish.albedo)) /* as in chapter 6 */
+    if (finish.metal && !surface->pattern && rt_is_zero(finish.albedo)) /* chapter 6 */
         finish.albedo = rt_vec(1.0f, 1.0f, 1.0f);
     return finish;
 }

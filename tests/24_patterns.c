@@ -234,7 +234,7 @@ static void test_black_of_a_pattern_is_black_on_a_mirror(void **state)
 static void test_a_coat_shines_over_a_black_pattern(void **state)
 {
     (void)state;
-    const rt_surface surface = {.pattern = checker, .shininess = 100};
+    const rt_surface surface = {.pattern = checker, .shininess = 2000};
     const rt_light above = {{0.5f, 4, 0.5f}, {10, 10, 10}};
     rt_scene scene = of_box(&floor_box, &surface);
     scene.lights = &above;
