@@ -2274,7 +2274,7 @@ static inline rt_finish rt__finish_of(const rt_surface *surface, const rt_hit *h
     finish.albedo = rt_albedo(surface, hit);
     finish.shininess = surface->shininess;
     finish.metal = hit->material->mirror;
-    if (finish.metal && rt_is_zero(finish.albedo)) /* as in chapter 6 */
+    if (finish.metal && !surface->pattern && rt_is_zero(finish.albedo)) /* chapter 6 */
         finish.albedo = rt_vec(1.0f, 1.0f, 1.0f);
     return finish;
 }
@@ -2320,8 +2320,12 @@ static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit
         if (!(rt_dot(hit->normal, to_light) > 0.0f))
             continue;
         rng->rays++;
+        rt_ray way; /* on which no lamp may stand, either */
+        way.origin = hit->point;
+        way.direction = to_light;
         rt_vec3 sent = rt_vec(0.0f, 0.0f, 0.0f);
-        if (rt_visible(scene, hit->point, hit->normal, light->position))
+        if (rt_visible(scene, hit->point, hit->normal, light->position) &&
+            rt__nearest_lamp(scene, &way, 1.0f, -1) < 0)
             sent =
                 finish->shininess > 0.0f
                     ? rt__glossy_point(finish, hit->normal, to_eye, to_light,
