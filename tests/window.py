@@ -202,7 +202,7 @@ def test_the_wheel_changes_what_it_is_over(display):
     window.key("e")
     window.wait(r"exposure \+0.5")
     window.key("r")
-    window.wait("4 samples, .*finished")
+    window.wait(r"gloss[^,]*, 4 samples, .*finished")
     picture, _ = window.save()
     assert picture == expected("demo13", *SMALL)
     window.end()
