@@ -2339,16 +2339,17 @@ static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
         const float r1 = rt_random(rng);
         const float r2 = rt_random(rng);
         const rt_vec3 end = rt_sample_lamp(lamp, hit->point, r1, r2);
-        const rt_vec3 toward = rt__unit(rt_sub(end, hit->point));
-        const float aimed = rt_lamp_density(lamp, hit->point, toward);
-        float density;
-        const rt_vec3 f = rt_scatter(finish, hit->normal, to_eye, toward, &density);
-        if (!(aimed > 0.0f && density > 0.0f))
-            continue; /* from within the lamp, or behind the surface */
-        rng->rays++;
         rt_ray way; /* on which no other lamp may stand, either */
         way.origin = hit->point;
         way.direction = rt_sub(end, hit->point);
+        const rt_vec3 toward = rt__unit(way.direction);
+        const float aimed = rt_lamp_density(lamp, hit->point, toward);
+        float density;
+        const rt_vec3 f = rt_scatter(finish, hit->normal, to_eye, toward, &density);
+        if (!(aimed > 0.0f && density > 0.0f &&
+              rt_dot(hit->normal, way.direction) > 0.0f))
+            continue; /* from within the lamp, or behind the surface */
+        rng->rays++;
         const bool seen = rt_visible(scene, hit->point, hit->normal, end) &&
                           rt__nearest_lamp(scene, &way, 1.0f, i) < 0;
         const float weight = rt_mis(aimed, density);
@@ -6328,21 +6329,6 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
     return sum;
 }
 
-/* rt_visible, where the light is so near the surface that rounding decides on which side
- * it is. */
-RT__NOINLINE rt__m rt__unseen_alone(const rt_scene *scene, const rt__hits *hits,
-                                    const rt__f3 *end, unsigned lanes)
-{
-    rt__f blocked = {0.0f};
-    for (; lanes != 0; lanes &= lanes - 1u) {
-        const int lane = rt__lowest(lanes);
-        if (!rt_visible(scene, rt__at(hits->point, lane), rt__at(hits->normal, lane),
-                        rt__lane(end, lane)))
-            blocked[lane] = 1.0f;
-    }
-    return rt__less(rt__all(0.0f), blocked);
-}
-
 /* rt__direct_lamps. */
 RT__INLINE rt__f3 rt__from_lamps(const rt__job *job, const rt__packet *p,
                                  const rt__finishes *f, rt__f3 to_eye, uint64_t *rays)
@@ -6361,17 +6347,13 @@ RT__INLINE rt__f3 rt__from_lamps(const rt__job *job, const rt__packet *p,
         const rt__f3 end = rt__aim(lamp, hits->point, r1, r2, &toward, &aimed);
         const rt__f3 sent =
             rt__scatter(f, f->aims, hits->normal, to_eye, toward, &density);
-        const rt__m lit = f->aims & rt__less(zero, aimed) & rt__less(zero, density);
+        const rt__f3 way = rt__sub(end, hits->point);
+        const rt__m lit = f->aims & rt__less(zero, aimed) & rt__less(zero, density) &
+                          rt__less(zero, rt__dot(hits->normal, way));
         if (!rt__any(lit))
             continue;
         *rays += rt__count(lit);
-        const rt__f3 way = rt__sub(end, hits->point);
-        const rt__m below = lit & rt__less(rt__dot(hits->normal, way), zero);
-        rt__m unseen = rt__unseen(job, &p->place, lit & rt__no(below), hits->normal, end);
-        if (__builtin_expect(rt__any(below), 0))
-            unseen = (unseen & rt__no(below)) |
-                     rt__unseen_alone(scene, hits, &end, rt__bits(below));
-        rt__m counts = lit & rt__no(unseen);
+        rt__m counts = lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, end));
         if (scene->lamp_count > 1)
             counts &= rt__same(
                 rt__nearest_lamps(scene, &hits->point, &way, counts, rt__all(1.0f), i),

@@ -217,6 +217,8 @@ static void add_part_two(void)
             l->u = offset();
             l->v = offset();
         }
+        if (below(9) == 0) /* far away */
+            l->center = rt_scale(l->center, magnitude(1, 1e9f));
         if (below(4) == 0 && scene.sphere_count > 0) { /* it touches a sphere */
             const rt_sphere *s = &spheres[below(scene.sphere_count)];
             const float in =
@@ -228,7 +230,7 @@ static void add_part_two(void)
         scene.sky = blue;
     scene.sky_data = &unit;
     if (below(4) == 0) {
-        options.lens.radius = 0.1f * size();
+        options.lens.radius = below(9) > 0 ? 0.1f * size() : unit * magnitude(1, 1e9f);
         options.lens.focus = fmaxf(size(), 1e-9f);
     }
 }
