@@ -53,12 +53,13 @@
  *     }
  *
  * WHAT IT IS      Spheres, axis-aligned boxes, point lights, mirrors, diffuse surfaces,
- *                 direct and indirect light, on all cores. C99 and C++17, libc and libm.
- * WHAT IT IS NOT  No meshes, no textures, no glass, no lights with a size; no files, no
- *                 windows. It does not print, exit, or keep global state, and allocates
- *                 only for rt_build_bvh and while rt_render or rt_denoise runs.
+ *                 direct and indirect light, on all cores. Part two: glass, gloss,
+ *                 patterns, lamps with a size, a sky, a lens. C99 and C++17, libc, libm.
+ * WHAT IT IS NOT  No meshes; no files, no windows. It does not print, exit, or keep
+ *                 global state, and allocates only for rt_build_bvh and while rt_render
+ *                 or rt_denoise runs.
  *
- * HOW TO READ IT  From top to bottom. Chapters 0 to 10 are plain C, each on top of the
+ * HOW TO READ IT  From top to bottom. Chapters 0 to 15 are plain C, each on top of the
  *                 ones before; demos/demoNN and docs/NN- have the same numbers. The
  *                 machinery that runs them on all cores, several rays at a time, stands
  *                 last, under RT_IMPLEMENTATION.
@@ -126,6 +127,12 @@
  *                 8 many shapes        rt_bvh
  *                 9 less noise         rt_sobol_start
  *                10 clean pictures     rt_guide, rt_first_look, rt_denoise
+ *                11 glass              rt_surface, rt_fresnel, rt_refract
+ *                12 lamps with a size  rt_lamp, rt_sample_lamp, rt_mis
+ *                13 gloss              rt_sample_gloss, rt_gloss, rt_scatter
+ *                14 a lens and a sky   rt_lens, rt_lens_ray, rt_sky
+ *                15 patterns           rt_albedo
+ *                   all of part two    rt_radiance_mis
  *                   pictures           rt_image, rt_options, rt_render, rt_build_bvh
  *
  * Licence (MIT or public domain) at the end of the file; changes in CHANGELOG.md.
@@ -2139,13 +2146,13 @@ static inline rt_vec3 rt_scatter(const rt_finish *finish, rt_vec3 normal, rt_vec
         return rt_scale(finish->albedo, matt);
     }
     float of_gloss;
-    const float gloss = rt_gloss(normal, to_eye, to_light, finish->shininess, &of_gloss);
+    const float lobe = rt_gloss(normal, to_eye, to_light, finish->shininess, &of_gloss);
     const float chance = rt__gloss_chance(finish, normal, to_eye);
     *density = chance * of_gloss + (1.0f - chance) * matt;
     if (finish->metal)
-        return rt_scale(finish->albedo, gloss);
+        return rt_scale(finish->albedo, lobe);
     const rt_vec3 h = rt__unit(rt_add(to_eye, to_light));
-    const float coat = gloss * rt__lacquer(rt_dot(h, to_light));
+    const float coat = lobe * rt__lacquer(rt_dot(h, to_light));
     const float body = 1.05f * (1.0f - RT__LACQUER) * matt *
                        (1.0f - rt__fifth_power(1.0f - light)) *
                        (1.0f - rt__fifth_power(1.0f - eye));
@@ -2267,7 +2274,7 @@ static inline rt_finish rt__finish_of(const rt_surface *surface, const rt_hit *h
     finish.albedo = rt_albedo(surface, hit);
     finish.shininess = surface->shininess;
     finish.metal = hit->material->mirror;
-    if (finish.metal && rt_is_zero(finish.albedo)) /* as in chapter 6 */
+    if (finish.metal && !surface->pattern && rt_is_zero(finish.albedo)) /* chapter 6 */
         finish.albedo = rt_vec(1.0f, 1.0f, 1.0f);
     return finish;
 }
@@ -2313,8 +2320,12 @@ static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit
         if (!(rt_dot(hit->normal, to_light) > 0.0f))
             continue;
         rng->rays++;
+        rt_ray way; /* on which no lamp may stand, either */
+        way.origin = hit->point;
+        way.direction = to_light;
         rt_vec3 sent = rt_vec(0.0f, 0.0f, 0.0f);
-        if (rt_visible(scene, hit->point, hit->normal, light->position))
+        if (rt_visible(scene, hit->point, hit->normal, light->position) &&
+            rt__nearest_lamp(scene, &way, 1.0f, -1) < 0)
             sent =
                 finish->shininess > 0.0f
                     ? rt__glossy_point(finish, hit->normal, to_eye, to_light,

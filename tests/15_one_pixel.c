@@ -27,8 +27,13 @@ static const rt_sphere spheres[] = {
 static const rt_box box = {
     {-0.5f, -1, -5}, {0.2f, -0.5f, -4}, {{0.2f, 0.3f, 0.9f}, false}};
 static const rt_light lamps[] = {{{2, 3, -3}, {60, 50, 40}}, {{-4, 5, -8}, {20, 40, 60}}};
-static const rt_scene open_air = {spheres, 3, &box, 1, lamps, 2, {0.2f, 0.3f, 0.5f},
-                                  NULL};
+static const rt_scene open_air = {.spheres = spheres,
+                                  .sphere_count = 3,
+                                  .boxes = &box,
+                                  .box_count = 1,
+                                  .lights = lamps,
+                                  .light_count = 2,
+                                  .background = {0.2f, 0.3f, 0.5f}};
 static const rt_camera camera; /* all defaults */
 
 static const struct view {
