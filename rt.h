@@ -2739,7 +2739,8 @@ typedef struct rt_shadow {
     int lamp;          /* this one; else -1 */
     rt_ray ray;        /* from the point, to the light at t = 1 */
     float cosine, dd;  /* <N,L> and d^2 */
-    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen */
+    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen (if
+                    no lamp with a size hides it: then light_sent is black) */
     float t;
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
     float weight;       /* of a lamp, already in light_sent: see rt_mis */
@@ -2929,6 +2930,12 @@ static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, in
         v->event = RT_EVENT_LAMP;
         v->shape = -1;
         memset(&v->hit, 0, sizeof v->hit);
+    } else if (v->shape >= 0) { /* in case that it ends here: what the surface is */
+        const rt_surface *surface = rt_surface_of(scene, &v->hit);
+        v->event = surface->eta > 0.0f         ? RT_EVENT_REFRACTED
+                   : !v->hit.material->mirror  ? RT_EVENT_MATT
+                   : surface->shininess > 0.0f ? RT_EVENT_GLOSS
+                                               : RT_EVENT_MIRROR;
     }
 }
 
