@@ -332,7 +332,7 @@ static const rt_sphere balls[5] = {{{-1, 0, -5}, 1, {{0, 0, 0}, false}},
                                    {{-3, 0, -6}, 1, {{0.7f, 0.3f, 0.2f}, false}}};
 static const rt_box floor_and_glow[2] = {
     {{-9, -2, -12}, {9, -1, 0}, {{1, 1, 1}, false}},
-    {{-9, 1, -12}, {9, 3, -11.5f}, {{0.5f, 0.5f, 0.5f}, false}}};
+    {{-9, 6, -12}, {9, 7, -3}, {{0.5f, 0.5f, 0.5f}, false}}}; /* behind the lamps */
 static const rt_surface finishes[SHAPES] = {
     [GLASS] = {.eta = 1.5f, .absorption = {0.1f, 0.3f, 0.2f}},
     [METAL] = {.shininess = 40},
