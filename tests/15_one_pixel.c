@@ -341,7 +341,7 @@ static const rt_surface finishes[SHAPES] = {
     [GLOW] = {.emission = {0.3f, 0.2f, 0.1f}}};
 /* the second may stand before the first */
 static const rt_lamp two_lamps[2] = {
-    {.center = {1, 4, -5}, .radius = 0.6f, .intensity = {15, 14, 13}},
+    {.center = {1, 4, -5}, .radius = 1.2f, .intensity = {15, 14, 13}},
     {.center = {-2, 3, -6},
      .u = {0.6f, 0.2f, 0},
      .v = {0, 0, 0.7f},
