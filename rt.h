@@ -53,12 +53,13 @@
  *     }
  *
  * WHAT IT IS      Spheres, axis-aligned boxes, point lights, mirrors, diffuse surfaces,
- *                 direct and indirect light, on all cores. C99 and C++17, libc and libm.
- * WHAT IT IS NOT  No meshes, no textures, no glass, no lights with a size; no files, no
- *                 windows. It does not print, exit, or keep global state, and allocates
- *                 only for rt_build_bvh and while rt_render or rt_denoise runs.
+ *                 direct and indirect light, on all cores. Part two: glass, gloss,
+ *                 patterns, lamps with a size, a sky, a lens. C99 and C++17, libc, libm.
+ * WHAT IT IS NOT  No meshes; no files, no windows. It does not print, exit, or keep
+ *                 global state, and allocates only for rt_build_bvh and while rt_render
+ *                 or rt_denoise runs.
  *
- * HOW TO READ IT  From top to bottom. Chapters 0 to 10 are plain C, each on top of the
+ * HOW TO READ IT  From top to bottom. Chapters 0 to 15 are plain C, each on top of the
  *                 ones before; demos/demoNN and docs/NN- have the same numbers. The
  *                 machinery that runs them on all cores, several rays at a time, stands
  *                 last, under RT_IMPLEMENTATION.
@@ -126,6 +127,12 @@
  *                 8 many shapes        rt_bvh
  *                 9 less noise         rt_sobol_start
  *                10 clean pictures     rt_guide, rt_first_look, rt_denoise
+ *                11 glass              rt_surface, rt_fresnel, rt_refract
+ *                12 lamps with a size  rt_lamp, rt_sample_lamp, rt_mis
+ *                13 gloss              rt_sample_gloss, rt_gloss, rt_scatter
+ *                14 a lens and a sky   rt_lens, rt_lens_ray, rt_sky
+ *                15 patterns           rt_albedo
+ *                   all of part two    rt_radiance_mis
  *                   pictures           rt_image, rt_options, rt_render, rt_build_bvh
  *
  * Licence (MIT or public domain) at the end of the file; changes in CHANGELOG.md.
@@ -2139,13 +2146,13 @@ static inline rt_vec3 rt_scatter(const rt_finish *finish, rt_vec3 normal, rt_vec
         return rt_scale(finish->albedo, matt);
     }
     float of_gloss;
-    const float gloss = rt_gloss(normal, to_eye, to_light, finish->shininess, &of_gloss);
+    const float lobe = rt_gloss(normal, to_eye, to_light, finish->shininess, &of_gloss);
     const float chance = rt__gloss_chance(finish, normal, to_eye);
     *density = chance * of_gloss + (1.0f - chance) * matt;
     if (finish->metal)
-        return rt_scale(finish->albedo, gloss);
+        return rt_scale(finish->albedo, lobe);
     const rt_vec3 h = rt__unit(rt_add(to_eye, to_light));
-    const float coat = gloss * rt__lacquer(rt_dot(h, to_light));
+    const float coat = lobe * rt__lacquer(rt_dot(h, to_light));
     const float body = 1.05f * (1.0f - RT__LACQUER) * matt *
                        (1.0f - rt__fifth_power(1.0f - light)) *
                        (1.0f - rt__fifth_power(1.0f - eye));
@@ -4597,19 +4604,23 @@ struct rt__table {
     float power[RT__FEW];          /* |O|^2 - R^2, the power of the point (0,0,0) */
     float size[RT__FEW];           /* max(|O|, R), scaled by RT__DOUBT */
     float largest;                 /* of the sizes */
-    float lights[RT__FEW];         /* the least |S - O|^2 - R^2 of all lights */
+    float lights[RT__FEW];         /* the least |S - O|^2 - R^2 of all lights and lamps */
     float least_light;             /* of them */
+    float eta[RT__FEW], shininess[RT__FEW]; /* part two, of the surfaces */
+    rt__column absorption, emission;
+    bool patterns, emits; /* has any of them a pattern, or emission? Also if not few */
 };
 
 #define RT__DOUBT 1.953125e-3f /* 2^-9, see rt__place */
 
 /* Few shapes, of numbers so moderate that squares are good floats, and no sphere so small
  * that rt_leave's step is on the other side of it? */
-static bool rt__are_few(const rt_scene *scene, const rt_camera *camera)
+static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
+                        const rt_lens *lens)
 {
     const float most = 1e7f;
     bool good = scene->sphere_count + scene->box_count <= RT__FEW &&
-                rt__within(camera->position, -most, most);
+                rt__within(camera->position, -most, most) && lens->radius <= most;
     for (int i = 0; good && i < scene->sphere_count; i++) {
         const rt_sphere *s = &scene->spheres[i];
         good = rt__within(s->center, -most, most) && s->radius <= most &&
@@ -4620,7 +4631,28 @@ static bool rt__are_few(const rt_scene *scene, const rt_camera *camera)
                rt__within(scene->boxes[i].max, -most, most);
     for (int i = 0; good && i < scene->light_count; i++)
         good = rt__within(scene->lights[i].position, -most, most);
+    for (int i = 0; good && i < scene->lamp_count; i++) {
+        const rt_lamp *l = &scene->lamps[i];
+        good = rt__within(l->center, -most, most) && rt__within(l->u, -most, most) &&
+               rt__within(l->v, -most, most) && l->radius <= most;
+    }
     return good;
+}
+
+/* All points of the lamp that rt_sample_lamp may choose are as far from O, or farther.
+ * They are rounded, by less than 2^-16 of the numbers that they are made of. */
+static double rt__least_distance(const rt_lamp *lamp, rt_dvec3 o)
+{
+    const rt_dvec3 center = rt_to_double(lamp->center), way = rt_dsub(center, o);
+    const rt_dvec3 u = rt_to_double(lamp->u), v = rt_to_double(lamp->v);
+    const bool ball = lamp->radius > 0.0f;
+    const double reach =
+        ball ? (double)lamp->radius : sqrt(rt_ddot(u, u)) + sqrt(rt_ddot(v, v));
+    const double off = ball ? 0.0 : fabs(rt_ddot(way, rt_dnormalize(rt_dcross(u, v))));
+    const double near = sqrt(rt_ddot(way, way)) - reach;
+    const double least = (near > off ? near : off) -
+                         (sqrt(rt_ddot(center, center)) + reach) * (1.0 / 65536.0);
+    return least > 0.0 ? least : 0.0;
 }
 
 static void rt__put(rt__column *c, int i, rt_vec3 v)
@@ -4642,6 +4674,13 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
         rt__put(&s->place, i, sphere ? sphere->center : box->min);
         rt__put(&s->albedo, i, material->albedo);
         s->kind[i] = material->mirror ? 1.0f : 0.0f;
+        if (scene->surfaces) {
+            const rt_surface *surface = &scene->surfaces[i];
+            s->eta[i] = surface->eta;
+            s->shininess[i] = surface->shininess;
+            rt__put(&s->absorption, i, surface->absorption);
+            rt__put(&s->emission, i, surface->emission);
+        }
         if (box) {
             rt__put(&s->max, i, box->max);
             continue;
@@ -4656,6 +4695,10 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
         for (int k = 0; k < scene->light_count; k++) {
             const rt_dvec3 f = rt_dsub(rt_to_double(scene->lights[k].position), o);
             const double c = rt_ddot(f, f) - r * r;
+            s->lights[i] = c < (double)s->lights[i] ? (float)c : s->lights[i];
+        }
+        for (int k = 0; k < scene->lamp_count; k++) {
+            const double d = rt__least_distance(&scene->lamps[k], o), c = d * d - r * r;
             s->lights[i] = c < (double)s->lights[i] ? (float)c : s->lights[i];
         }
         s->least_light = s->lights[i] < s->least_light ? s->lights[i] : s->least_light;
@@ -4686,7 +4729,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     }
     job.scene = &indexed;
 #if RT__LANES > 1
-    if (lanes > 1 && !rt__is_part_two(scene) && !(job.options.lens.radius > 0.0f))
+    if (lanes > 1)
         status = rt__run_packets(&job);
     else
 #endif
@@ -5045,6 +5088,8 @@ typedef struct rt__hits {
     rt__f kind; /* -1: nothing was hit; 0: a diffuse surface; 1: a mirror */
     rt__i left; /* of the next place */
     rt__f3 point, normal, albedo;
+    rt__f t;     /* part two wants to know these, too; */
+    rt__i shape; /* of a miss they are anything, but shape is a number that there is */
 } rt__hits;
 
 /* The nearest shape so far, by key = -a t: the larger, the nearer. That of shape number
@@ -5244,6 +5289,7 @@ RT__NOINLINE rt__m rt__finish_boxes(const rt__table *s, const rt__f3 *origin,
     hits->normal = rt__vselect(good, normal, hits->normal);
     hits->point = rt__vselect(good, point, hits->point);
     hits->left = rt__iselect(good, x + RT__NOWHERE, hits->left);
+    hits->t = rt__select(good, t, hits->t);
     return good;
 }
 
@@ -5268,6 +5314,8 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
     hits->left = rt__iselect(within, ~n.at, n.at);
     hits->kind = rt__select(missed, rt__all(-1.0f), rt__pick(s->kind, n.at, s->count));
     hits->albedo = rt__vpick(&s->albedo, n.at, s->count);
+    hits->t = t;
+    hits->shape = n.at;
     /* Nearer than any other? The key of another sphere is wrong by b and two roundings
      * more, a and t of this one by some; in all by less than 2^-19 s |u|. */
     const rt__f slack = (p->size + s->largest) * (1.9073486328125e-6f / RT__DOUBT);
@@ -5370,6 +5418,8 @@ RT__NOINLINE void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
             continue;
         hits->kind[lane] = hit.material->mirror ? 1.0f : 0.0f;
         hits->left[lane] = RT__NOWHERE;
+        hits->t[lane] = hit.t;
+        hits->shape[lane] = number;
         rt__set_lane(&hits->point, lane, hit.point);
         rt__set_lane(&hits->normal, lane, hit.normal);
         rt__set_lane(&hits->albedo, lane, hit.material->albedo);
@@ -5468,13 +5518,42 @@ RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__m below)
     return rt__add(point, rt__scale(normal, rt__select(below, -offset, offset)));
 }
 
-/* rt_direct, rt_visible and rt_lambert. A light with a size would draw a point here. */
+/* rt_visible: of the lanes that are lit, in front of the surface, which do not see the
+ * light? Rays start at the place. */
+RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
+                            rt__f3 normal, rt__f3 light)
+{
+    const rt__f zero = rt__all(0.0f);
+    const rt__f3 u = rt__sub(light, p->origin);
+    const rt__m none = {0};
+    rt__shade shade;
+    shade.sure = none;
+    shade.may = lit;
+    if (job->table->few) { /* a light nearer than rt_leave's step is behind the ray */
+        const rt__m behind = rt__less(rt__dot(normal, u), zero);
+        shade = rt__shade_all(job->table, p, u);
+        shade.sure &= rt__no(behind);
+        shade.may |= behind;
+    }
+    const rt__m ask = lit & shade.may & rt__no(shade.sure);
+    if (rt__any(ask))
+        shade.sure |= rt__shade_in_tree(job->scene, &p->origin, &u, rt__bits(ask));
+    return shade.sure;
+}
+
+/* rt_lambert, where the light is in front: the part of it that is sent on, or 0. */
+RT__INLINE rt__f rt__lambert(rt__f toward, rt__f dd, rt__m *counts)
+{
+    *counts &= rt__less(rt__all(1e-20f), dd) & rt__no(rt__less(rt__all(FLT_MAX), dd));
+    return toward / rt__fsqrt(dd) / (3.14159265359f * dd);
+}
+
+/* rt_direct, with rt_visible and rt_lambert. */
 RT__INLINE rt__f3 rt__light(const rt__job *job, const rt__place *p, rt__m lanes,
                             const rt__hits *hits, uint64_t *rays)
 {
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__all(0.0f);
-    const rt__m none = {0};
     rt__f3 sum = rt__vec(zero, zero, zero);
     for (int i = 0; i < scene->light_count; i++) {
         const rt__f3 position = rt__vall(scene->lights[i].position);
@@ -5484,26 +5563,10 @@ RT__INLINE rt__f3 rt__light(const rt__job *job, const rt__place *p, rt__m lanes,
         if (!rt__any(lit))
             continue;
         *rays += rt__count(lit);
-        const rt__f3 u = rt__sub(position, p->origin);
-        rt__shade shade;
-        shade.sure = none;
-        shade.may = lit;
-        if (job->table->few) { /* a light nearer than rt_leave's step is behind the ray */
-            const rt__m behind = rt__less(rt__dot(hits->normal, u), zero);
-            shade = rt__shade_all(job->table, p, u);
-            shade.sure &= rt__no(behind);
-            shade.may |= behind;
-        }
-        const rt__m ask = lit & shade.may & rt__no(shade.sure);
-        if (rt__any(ask))
-            shade.sure |= rt__shade_in_tree(scene, &p->origin, &u, rt__bits(ask));
-        const rt__f dd = rt__dot(to_light, to_light);
-        const rt__m counts = lit & rt__no(shade.sure) & rt__less(rt__all(1e-20f), dd) &
-                             rt__no(rt__less(rt__all(FLT_MAX), dd));
-        const rt__f cosine = toward / rt__fsqrt(dd);
+        rt__m counts = lit & rt__no(rt__unseen(job, p, lit, hits->normal, position));
+        const rt__f part = rt__lambert(toward, rt__dot(to_light, to_light), &counts);
         const rt__f3 light =
-            rt__scale(rt__mul(hits->albedo, rt__vall(scene->lights[i].intensity)),
-                      cosine / (3.14159265359f * dd));
+            rt__scale(rt__mul(hits->albedo, rt__vall(scene->lights[i].intensity)), part);
         sum = rt__vselect(counts, rt__add(sum, light), sum);
     }
     return sum;
@@ -5573,28 +5636,38 @@ RT__INLINE void rt__draw(const rt__numbers *n, rt__f *r1, rt__f *r2)
     *r2 = rt__to_unit(second);
 }
 
-/* rt_sincos of turns in (0, 1), rt_basis and rt_sample_cosine. */
-RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
+/* rt_sincos of turns in [0, 1]. */
+RT__INLINE void rt__sincos(rt__f turns, rt__f *sine, rt__f *cosine)
 {
-    const rt__i quarter = __builtin_convertvector(r1 * 4.0f + 0.5f, rt__i);
+    const rt__i quarter = __builtin_convertvector(turns * 4.0f + 0.5f, rt__i);
     const rt__f x =
-        (r1 * 4.0f - __builtin_convertvector(quarter, rt__f)) * 1.57079632679f;
+        (turns * 4.0f - __builtin_convertvector(quarter, rt__f)) * 1.57079632679f;
     const rt__f xx = x * x;
     const rt__f s3 = -1.6666654611e-1f + xx * (8.3321608736e-3f - xx * 1.9515295891e-4f);
     const rt__f c4 = 4.1666645683e-2f + xx * (-1.3887316255e-3f + xx * 2.4433157118e-5f);
     const rt__f s = x + x * xx * s3, c = 1.0f + (xx * xx * c4 - 0.5f * xx);
     const rt__m even = rt__same(quarter & 1, quarter & 0);
-    const rt__f sine =
-        (rt__f)((rt__i)rt__select(even, s, c) ^ ((quarter & 2) << 30)); /* its sign */
-    const rt__f cosine =
-        (rt__f)((rt__i)rt__select(even, c, s) ^ (((quarter + 1) & 2) << 30));
+    *sine = (rt__f)((rt__i)rt__select(even, s, c) ^ ((quarter & 2) << 30)); /* its sign */
+    *cosine = (rt__f)((rt__i)rt__select(even, c, s) ^ (((quarter + 1) & 2) << 30));
+}
 
+/* rt_basis. */
+RT__INLINE void rt__basis(rt__f3 n, rt__f3 *a, rt__f3 *b)
+{
     const rt__f one = rt__all(1.0f);
     const rt__f sign = rt__select(rt__less(n.z, one - one), -one, one);
     const rt__f k = -1.0f / (sign + n.z), m = n.x * n.y * k;
-    const rt__f3 a = rt__vec(1.0f + sign * n.x * n.x * k, sign * m, -sign * n.x);
-    const rt__f3 b = rt__vec(m, sign + n.y * n.y * k, -n.y);
+    *a = rt__vec(1.0f + sign * n.x * n.x * k, sign * m, -sign * n.x);
+    *b = rt__vec(m, sign + n.y * n.y * k, -n.y);
+}
 
+/* rt_sample_cosine. */
+RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
+{
+    rt__f sine, cosine;
+    rt__f3 a, b;
+    rt__sincos(r1, &sine, &cosine);
+    rt__basis(n, &a, &b);
     const rt__f radius = rt__fsqrt(1.0f - r2);
     return rt__add(rt__add(rt__scale(a, cosine * radius), rt__scale(b, sine * radius)),
                    rt__scale(n, rt__fsqrt(r2)));
@@ -5611,6 +5684,8 @@ typedef struct rt__packet {
     rt__place place;
     rt__m looking; /* whose guide is wanted, and not there yet */
     rt__f3 guide_normal, guide_point, guide_albedo, guide_direct;
+    rt__f3 from;   /* part two: the point that the ray has left, and the density */
+    rt__f density; /* of its direction, 0: there was no choice */
 } rt__packet;
 
 /* rt_radiance, its loop in three parts. First the nearest hit, ... */
@@ -5679,6 +5754,22 @@ RT__INLINE void rt__collect(const rt__job *job, rt__packet *p, int bounce, uint6
         rt__look_first(job, p, bounce, missed, &light);
 }
 
+/* Does it go on? rt__is_spent, rt__chance and the roulette. */
+RT__INLINE void rt__go_on(const rt__job *job, rt__packet *p, int bounce)
+{
+    const rt__f most =
+        rt__fmax(p->throughput.x, rt__fmax(p->throughput.y, p->throughput.z));
+    p->lanes &= rt__no(rt__less(most, rt__all(FLT_MIN)));
+    if (job->options.bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
+        const rt__f chance = rt__fmin(most, rt__all(0.95f));
+        rt__f r1, r2;
+        rt__draw(&p->numbers, &r1, &r2);
+        p->numbers.dimension += 2u;
+        p->lanes &= rt__less(r1, chance);
+        p->throughput = rt__scale(p->throughput, 1.0f / chance);
+    }
+}
+
 /* ... and the way on. A new kind of material computes its direction here, for all lanes,
  * and is one more select; a rare one asks its chapter's function, lane by lane. */
 RT__INLINE void rt__bounce(const rt__job *job, rt__packet *p, int bounce)
@@ -5696,16 +5787,7 @@ RT__INLINE void rt__bounce(const rt__job *job, rt__packet *p, int bounce)
     const rt__m lossless =
         mirror & rt__no(rt__less(zero, rt__fmax(rho.x, rt__fmax(rho.y, rho.z))));
     p->throughput = rt__vselect(lossless, p->throughput, rt__mul(p->throughput, rho));
-    const rt__f most =
-        rt__fmax(p->throughput.x, rt__fmax(p->throughput.y, p->throughput.z));
-    p->lanes &= rt__no(rt__less(most, rt__all(FLT_MIN))); /* rt__is_spent */
-    if (job->options.bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
-        const rt__f chance = rt__fmin(most, rt__all(0.95f)); /* rt__chance */
-        rt__draw(&p->numbers, &r1, &r2);
-        p->numbers.dimension += 2u;
-        p->lanes &= rt__less(r1, chance);
-        p->throughput = rt__scale(p->throughput, 1.0f / chance);
-    }
+    rt__go_on(job, p, bounce);
     /* a reflection so flat that rounding may send it through the surface */
     const rt__m flat = p->lanes & mirror & rt__less(rt__abs(un), rt__all(1e-5f));
     if (__builtin_expect(rt__any(flat), 0))
@@ -5737,6 +5819,727 @@ RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count
         if (done)
             return rays;
     }
+}
+
+/* ---- part two: chapters 11 to 15 -------------------------------------------------
+ *
+ * The same again for rt_radiance_mis. Surfaces, lamps and gloss are computed for all lanes
+ * as soon as one of them wants it. Patterns and skies are functions of the user's, called
+ * for one lane after the other. */
+
+#define rt__at(v, lane) rt__lane(&(v), lane)
+
+/* A float of the table of surfaces, at this offset in each, where the shapes are many. */
+RT__NOINLINE rt__f rt__gather(const rt_surface *surfaces, size_t offset, rt__i shape,
+                              unsigned lanes)
+{
+    rt__f result = {0.0f};
+    for (; lanes != 0; lanes &= lanes - 1u) {
+        const int lane = rt__lowest(lanes);
+        float value;
+        memcpy(&value, (const char *)&surfaces[shape[lane]] + offset, sizeof value);
+        result[lane] = value;
+    }
+    return result;
+}
+
+RT__INLINE rt__f rt__of_surface(const rt__job *job, const float *column, size_t offset,
+                                rt__i shape, rt__m lanes)
+{
+    return job->table->few
+               ? rt__pick(column, shape, job->table->count)
+               : rt__gather(job->scene->surfaces, offset, shape, rt__bits(lanes));
+}
+
+RT__INLINE rt__f3 rt__vof_surface(const rt__job *job, const rt__column *column,
+                                  size_t offset, rt__i shape, rt__m lanes)
+{
+    const size_t y = offset + sizeof(float), z = y + sizeof(float);
+    return rt__vec(rt__of_surface(job, column->x, offset, shape, lanes),
+                   rt__of_surface(job, column->y, y, shape, lanes),
+                   rt__of_surface(job, column->z, z, shape, lanes));
+}
+
+static rt_hit rt__hit_of(const rt_scene *scene, const rt__hits *hits, int lane)
+{
+    const int number = hits->shape[lane], box = number - scene->sphere_count;
+    rt_hit hit;
+    hit.t = hits->t[lane];
+    hit.point = rt__at(hits->point, lane);
+    hit.normal = rt__at(hits->normal, lane);
+    hit.material =
+        box < 0 ? &scene->spheres[number].material : &scene->boxes[box].material;
+    hit.shape = number;
+    return hit;
+}
+
+/* rt_albedo, where there is a pattern. */
+RT__NOINLINE void rt__patterns(const rt_scene *scene, const rt__hits *hits,
+                               unsigned lanes, rt__f3 *albedo)
+{
+    for (; lanes != 0; lanes &= lanes - 1u) {
+        const int lane = rt__lowest(lanes);
+        const rt_hit hit = rt__hit_of(scene, hits, lane);
+        const rt_surface *surface = &scene->surfaces[hit.shape];
+        if (surface->pattern)
+            rt__set_lane(albedo, lane, rt_albedo(surface, &hit));
+    }
+}
+
+/* rt_sky. */
+RT__NOINLINE rt__f3 rt__sky(const rt_scene *scene, const rt__f3 *direction,
+                            unsigned lanes)
+{
+    rt__f3 light = rt__vall(scene->background);
+    for (; scene->sky && lanes != 0; lanes &= lanes - 1u) {
+        const int lane = rt__lowest(lanes);
+        rt__set_lane(&light, lane, rt_sky(scene, rt__lane(direction, lane)));
+    }
+    return light;
+}
+
+/* rt_is_inside. */
+RT__NOINLINE rt__m rt__inside(const rt__job *job, const rt__hits *hits, rt__m lanes)
+{
+    const rt__table *s = job->table;
+    const rt__f zero = rt__all(0.0f);
+    rt__f inside = zero;
+    if (s->few) {
+        const rt__f3 place = rt__vpick(&s->place, hits->shape, s->count);
+        const rt__f3 max = rt__vpick(&s->max, hits->shape, s->count);
+        const rt__m sphere = rt__less(zero, rt__pick(s->radius, hits->shape, s->count));
+        const rt__f3 middle =
+            rt__vselect(sphere, place, rt__scale(rt__add(place, max), rt__all(0.5f)));
+        return rt__less(rt__dot(rt__sub(hits->point, middle), hits->normal), zero);
+    }
+    for (unsigned left = rt__bits(lanes); left != 0; left &= left - 1u) {
+        const int lane = rt__lowest(left);
+        const rt_hit hit = rt__hit_of(job->scene, hits, lane);
+        inside[lane] = rt_is_inside(job->scene, &hit) ? 1.0f : 0.0f;
+    }
+    return rt__less(zero, inside);
+}
+
+/* rt__exp_minus. */
+RT__INLINE rt__f rt__exponential(rt__f x)
+{
+    const rt__f zero = rt__all(0.0f), one = rt__all(1.0f), most = rt__all(87.0f);
+    const rt__m large = rt__no(rt__less(x, most)), positive = rt__less(zero, x);
+    const rt__f v = rt__select(positive & rt__no(large), x, zero);
+    const rt__i k = __builtin_convertvector(v * 1.44269504089f + 0.5f, rt__i);
+    const rt__f whole = __builtin_convertvector(k, rt__f);
+    const rt__f r = (whole * 0.693359375f - v) - whole * 2.12194440e-4f;
+    rt__f e = r * 1.9875691500e-4f + 1.3981999507e-3f;
+    e = e * r + 8.3334519073e-3f;
+    e = e * r + 4.1665795894e-2f;
+    e = e * r + 1.6666665459e-1f;
+    e = e * r + 5.0000001201e-1f;
+    e = e * r * r + r + 1.0f;
+    e = e * (rt__f)((127 - k) << 23);
+    return rt__select(positive, rt__select(large, zero, e), one);
+}
+
+/* Glass: rt_transmittance, rt_fresnel, rt_refract and the coin. */
+RT__NOINLINE rt__m rt__through_glass(const rt__job *job, rt__packet *p, rt__m glass,
+                                     rt__f eta, rt__f coin, rt__f3 *direction)
+{
+    const rt__hits *hits = &p->hits;
+    const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
+    const rt__f3 n = hits->normal, u = p->direction;
+    const rt__m inside = rt__inside(job, hits, glass) & glass;
+    if (rt__any(inside)) {
+        const rt__f3 a =
+            rt__vof_surface(job, &job->table->absorption,
+                            offsetof(rt_surface, absorption), hits->shape, inside);
+        const rt__f3 left =
+            rt__vec(rt__exponential(a.x * hits->t), rt__exponential(a.y * hits->t),
+                    rt__exponential(a.z * hits->t));
+        p->throughput = rt__vselect(inside, rt__mul(p->throughput, left), p->throughput);
+        eta = rt__select(inside, one / eta, eta);
+    }
+    const rt__f cosine = zero - rt__dot(n, u);
+    const rt__f sin2 = (one - cosine) * (one + cosine) / (eta * eta);
+    const rt__f cos2 = rt__fsqrt(one - sin2); /* NaN: total reflection */
+    const rt__f across = (eta * cosine - cos2) / (eta * cosine + cos2);
+    const rt__f along = (cosine - eta * cos2) / (cosine + eta * cos2);
+    const rt__f fresnel = 0.5f * (across * across + along * along);
+    const rt__m through = glass & rt__less(sin2, one) & rt__no(rt__less(coin, fresnel));
+    const rt__f3 refracted =
+        rt__add(rt__scale(u, one / eta), rt__scale(n, cosine / eta - cos2));
+    *direction = rt__vselect(through, refracted, *direction);
+    return through;
+}
+
+/* rt_mis. */
+RT__INLINE rt__f rt__mis(rt__f density, rt__f other)
+{
+    const rt__f ratio = other / density;
+    return rt__select(rt__less(1e-15f * other, density), 1.0f / (1.0f + ratio * ratio),
+                      rt__all(0.0f));
+}
+
+/* rt__unit. */
+RT__INLINE rt__f3 rt__unity(rt__f3 v)
+{
+    const rt__f dd = rt__dot(v, v);
+    return rt__scale(v, rt__select(rt__less(rt__all(1e-20f), dd), 1.0f / rt__fsqrt(dd),
+                                   rt__all(0.0f)));
+}
+
+RT__INLINE rt__f3 rt__cross(rt__f3 a, rt__f3 b)
+{
+    return rt__vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+/* rt__cap, where *dd is the square of the distance to the centre. */
+RT__INLINE rt__f rt__caps(float rr, rt__f dd)
+{
+    const rt__f s = rr / dd, all = rt__all(rr);
+    const rt__m good = rt__less(all, dd) & rt__less(1e-30f * dd, all);
+    return rt__select(good, s / (1.0f + rt__fsqrt(1.0f - s)), rt__all(0.0f));
+}
+
+RT__INLINE rt__f rt__cap_density(rt__f cap)
+{
+    const rt__f zero = rt__all(0.0f);
+    return rt__select(rt__less(zero, cap), 1.0f / (6.28318530718f * cap), zero);
+}
+
+/* rt_lamp_density. */
+RT__INLINE rt__f rt__lamp_density(const rt_lamp *lamp, rt__f3 point, rt__f3 direction)
+{
+    const rt__f zero = rt__all(0.0f);
+    const rt__f3 to_center = rt__sub(rt__vall(lamp->center), point);
+    if (lamp->radius > 0.0f)
+        return rt__cap_density(
+            rt__caps(lamp->radius * lamp->radius, rt__dot(to_center, to_center)));
+    const rt__f3 n = rt__vall(rt_normalize(rt_cross(lamp->u, lamp->v)));
+    const float area = rt__lamp_area(lamp);
+    const rt__f cosine = rt__abs(rt__dot(direction, n));
+    const rt__f d = rt__dot(to_center, n) / cosine, dd = d * d;
+    const rt__m good =
+        rt__less(rt__all(1e-6f), cosine) & rt__less(dd * 1e-14f, rt__all(area));
+    return rt__select(good, dd / area / cosine, zero);
+}
+
+/* rt_sample_lamp; then rt_lamp_density for the direction from P to S. */
+RT__INLINE rt__f3 rt__aim(const rt_lamp *lamp, rt__f3 point, rt__f r1, rt__f r2,
+                          rt__f3 *toward, rt__f *density)
+{
+    const rt__f zero = rt__all(0.0f);
+    if (!(lamp->radius > 0.0f)) {
+        const rt__f3 end =
+            rt__add(rt__vall(lamp->center),
+                    rt__add(rt__scale(rt__vall(lamp->u), 2.0f * r1 - 1.0f),
+                            rt__scale(rt__vall(lamp->v), 2.0f * r2 - 1.0f)));
+        *toward = rt__unity(rt__sub(end, point));
+        *density = rt__lamp_density(lamp, point, *toward);
+        return end;
+    }
+    const float rr = lamp->radius * lamp->radius;
+    const rt__f3 to_center = rt__sub(rt__vall(lamp->center), point);
+    const rt__f dd = rt__dot(to_center, to_center), d = rt__fsqrt(dd);
+    const rt__f cap = rt__caps(rr, dd), down = r2 * cap;
+    const rt__f sine = rt__fsqrt(down * (2.0f - down));
+    const rt__f3 n = rt__scale(to_center, 1.0f / d);
+    rt__f s, c;
+    rt__f3 a, b;
+    rt__sincos(r1, &s, &c);
+    rt__basis(n, &a, &b);
+    const rt__f3 direction =
+        rt__add(rt__add(rt__scale(a, c * sine), rt__scale(b, s * sine)),
+                rt__scale(n, 1.0f - down));
+    const rt__f off = d * sine;
+    const rt__f t = d * (1.0f - down) - rt__fsqrt(rt__fmax(rr - off * off, zero));
+    const rt__f3 end = rt__add(point, rt__scale(direction, t));
+    *toward = rt__unity(rt__sub(end, point));
+    *density = rt__cap_density(cap);
+    return end;
+}
+
+/* rt_meet_lamp of a ball, in double as chapter 1 has it, in these lanes; else 0. What it
+ * does from afar is left to it. */
+RT__NOINLINE rt__f rt__meet_ball(const rt_lamp *lamp, const rt__f3 *origin,
+                                 const rt__f3 *direction, rt__f t_max, rt__m lanes)
+{
+    const rt__f zero = rt__all(0.0f);
+    const double r = (double)lamp->radius, rr = r * r;
+    const rt__d none = {0.0};
+    rt__d3 o;
+    rt__d result[2];
+    o.x = none + (double)lamp->center.x;
+    o.y = none + (double)lamp->center.y;
+    o.z = none + (double)lamp->center.z;
+    for (int h = 0; h < 2; h++) {
+        const rt__d3 u = rt__vwiden(*direction, h);
+        const rt__d3 f = rt__dsub(rt__vwiden(*origin, h), o);
+        const rt__d a = rt__ddot(u, u), b = rt__ddot(f, u), ff = rt__ddot(f, f);
+        const rt__d c = ff - rr, discriminant = b * b - a * c;
+        const rt__d root = rt__dsqrt(discriminant);
+        const rt__d first = (-b - root) / a, second = (-b + root) / a;
+        const rt__l ahead = first >= (double)FLT_MIN;
+        const rt__d t = (rt__d)((ahead & (rt__l)first) | (~ahead & (rt__l)second));
+        const rt__l met = (a > 0.0) & ~((c > 0.0) & (b >= 0.0)) & (discriminant >= 0.0) &
+                          (t >= (double)FLT_MIN) & (t <= (double)FLT_MAX);
+        const rt__l far = rr < 1e-10 * ff;
+        const rt__d minus = none - 1.0;
+        result[h] = (rt__d)((far & (rt__l)minus) | (~far & met & (rt__l)t));
+    }
+    rt__f t = rt__join(result[0], result[1]);
+    t = rt__select(lanes, t, zero);
+    for (unsigned left = rt__bits(rt__less(t, zero)); left != 0; left &= left - 1u) {
+        const int lane = rt__lowest(left);
+        rt_ray ray;
+        ray.origin = rt__lane(origin, lane);
+        ray.direction = rt__lane(direction, lane);
+        t[lane] = rt_meet_lamp(lamp, &ray, t_max[lane]);
+    }
+    return rt__select(rt__less(t, t_max), t, zero);
+}
+
+/* rt_meet_lamp of a parallelogram. */
+RT__NOINLINE rt__f rt__meet_panel(const rt_lamp *lamp, const rt__f3 *origin,
+                                  const rt__f3 *direction, rt__f t_max, rt__m lanes)
+{
+    const rt__f zero = rt__all(0.0f);
+    const rt_vec3 n = rt_normalize(rt_cross(lamp->u, lamp->v));
+    const rt_vec3 across_v = rt_cross(lamp->v, n), across_u = rt_cross(lamp->u, n);
+    const rt__f most_u = rt__all(fabsf(rt_dot(lamp->u, across_v)));
+    const rt__f most_v = rt__all(fabsf(rt_dot(lamp->v, across_u)));
+    const rt__f3 center = rt__vall(lamp->center);
+    const rt__f toward = rt__dot(*direction, rt__vall(n));
+    const rt__f way = rt__dot(rt__sub(center, *origin), rt__vall(n)), t = way / toward;
+    const rt__f3 p = rt__sub(rt__add(*origin, rt__scale(*direction, t)), center);
+    const rt__f u = rt__abs(rt__dot(p, rt__vall(across_v)));
+    const rt__f v = rt__abs(rt__dot(p, rt__vall(across_u)));
+    const rt__m met = lanes & rt__less(rt__abs(way), 1e30f * rt__abs(toward)) &
+                      rt__less(zero, t) & rt__less(t, t_max) &
+                      (rt__less(u, most_u) | rt__same((rt__i)u, (rt__i)most_u)) &
+                      (rt__less(v, most_v) | rt__same((rt__i)v, (rt__i)most_v));
+    return rt__select(met, t, zero);
+}
+
+/* Those of the lanes whose ray may meet the ball. In float, where |C - O|^2 and all else
+ * is wrong by less than 2^-20 of itself: who misses it by more than that, misses. */
+RT__INLINE rt__m rt__may_meet(const rt_lamp *lamp, rt__f3 origin, rt__f3 u, rt__m lanes)
+{
+    const float rr = lamp->radius * lamp->radius;
+    const rt__f3 f = rt__sub(origin, rt__vall(lamp->center));
+    const rt__f a = rt__dot(u, u), b = rt__dot(f, u), ff = rt__dot(f, f);
+    const rt__f c = ff - rr, slack = (ff + rr) * 3.814697265625e-6f; /* 2^-18 */
+    const rt__f zero = rt__all(0.0f);
+    return lanes & rt__no(rt__less(b * b, a * (c - slack)) |
+                          (rt__less(zero, b) & rt__less(slack, c)));
+}
+
+/* rt__nearest_lamp: its number, in the lanes in which there is one; -1. */
+RT__INLINE rt__i rt__nearest_lamps(const rt_scene *scene, const rt__f3 *origin,
+                                   const rt__f3 *u, rt__m lanes, rt__f t_max, int but)
+{
+    const rt__f zero = rt__all(0.0f);
+    const rt__i first = (rt__i)zero;
+    rt__i nearest = first - 1;
+    for (int i = 0; i < scene->lamp_count; i++) {
+        const rt_lamp *lamp = &scene->lamps[i];
+        const bool ball = lamp->radius > 0.0f;
+        const rt__m may = i == but ? lanes & rt__no(lanes)
+                          : ball   ? rt__may_meet(lamp, *origin, *u, lanes)
+                                   : lanes;
+        if (!rt__any(may))
+            continue;
+        const rt__f t = ball ? rt__meet_ball(lamp, origin, u, t_max, may)
+                             : rt__meet_panel(lamp, origin, u, t_max, may);
+        const rt__m met = rt__less(zero, t);
+        t_max = rt__select(met, t, t_max);
+        nearest = rt__iselect(met, first + i, nearest);
+    }
+    return nearest;
+}
+
+/* rt_surface and rt_finish of the shapes that were hit, and which of the lanes ask the
+ * lamps: all but glass and perfect mirrors. */
+typedef struct rt__finishes {
+    rt__f3 albedo;
+    rt__f eta, shininess;
+    rt__m glass, metal, shiny, aims;
+} rt__finishes;
+
+/* rt__finish_of. */
+RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits,
+                                        rt__m lanes)
+{
+    const rt_scene *scene = job->scene;
+    const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
+    rt__finishes f;
+    f.albedo = hits->albedo;
+    f.eta = f.shininess = zero;
+    if (scene->surfaces) {
+        f.eta = rt__of_surface(job, job->table->eta, offsetof(rt_surface, eta),
+                               hits->shape, lanes);
+        f.shininess = rt__of_surface(job, job->table->shininess,
+                                     offsetof(rt_surface, shininess), hits->shape, lanes);
+        if (job->table->patterns)
+            rt__patterns(scene, hits, rt__bits(lanes), &f.albedo);
+    }
+    f.metal = lanes & rt__less(zero, hits->kind);
+    f.shiny = lanes & rt__less(zero, f.shininess);
+    f.glass = lanes & rt__less(zero, f.eta);
+    f.aims = lanes & rt__no(f.glass | (f.metal & rt__no(f.shiny)));
+    const rt__f most = rt__fmax(f.albedo.x, rt__fmax(f.albedo.y, f.albedo.z));
+    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
+                           f.albedo);
+    return f;
+}
+
+/* rt__hidden. */
+RT__INLINE rt__f rt__smith(rt__f cosine, rt__f a2)
+{
+    return cosine + rt__fsqrt(a2 + (1.0f - a2) * cosine * cosine);
+}
+
+/* 1 - rt__fifth_power, of 1 - cosine. */
+RT__INLINE rt__f rt__fifth(rt__f cosine)
+{
+    const rt__f v = 1.0f - cosine;
+    return v * v * v * v * v;
+}
+
+/* rt__lacquer. */
+RT__INLINE rt__f rt__coat(rt__f cosine)
+{
+    return RT__LACQUER + (1.0f - RT__LACQUER) * rt__fifth(cosine);
+}
+
+/* rt__gloss_chance. */
+RT__INLINE rt__f rt__chances(const rt__finishes *f, rt__f eye)
+{
+    const rt__f zero = rt__all(0.0f), one = rt__all(1.0f), coat = rt__coat(eye);
+    const rt__f chance = coat + 0.25f * (1.0f - coat);
+    return rt__select(f->metal, one, rt__select(f->shiny, chance, zero));
+}
+
+/* rt_gloss and the rest of rt_scatter, where there is gloss. */
+RT__INLINE rt__f3 rt__gloss(const rt__finishes *f, rt__f3 n, rt__f3 to_eye,
+                            rt__f3 to_light, rt__f *density)
+{
+    const rt__f zero = rt__all(0.0f);
+    const rt__f a2 = 2.0f / (f->shininess + 2.0f);
+    const rt__f eye = rt__dot(n, to_eye), light = rt__dot(n, to_light);
+    const rt__f matt = light * 0.318309886184f;
+    const rt__f3 h = rt__unity(rt__add(to_eye, to_light)), across = rt__cross(n, h);
+    const rt__f up = rt__dot(n, h), k = rt__dot(across, across) + a2 * up * up;
+    const rt__f facets =
+        rt__select(rt__less(zero, up),
+                   a2 / (3.14159265359f * k * k) / (2.0f * rt__smith(eye, a2)), zero);
+    const rt__f gloss = facets * (2.0f * light / rt__smith(light, a2));
+    const rt__f chance = rt__chances(f, eye);
+    *density = chance * facets + (1.0f - chance) * matt;
+    const rt__f coat = gloss * rt__coat(rt__dot(h, to_light));
+    const rt__f body = 1.05f * (1.0f - RT__LACQUER) * matt * (1.0f - rt__fifth(light)) *
+                       (1.0f - rt__fifth(eye));
+    return rt__vselect(f->metal, rt__scale(f->albedo, gloss),
+                       rt__add(rt__scale(f->albedo, body), rt__vec(coat, coat, coat)));
+}
+
+/* rt_scatter. */
+RT__INLINE rt__f3 rt__scatter(const rt__finishes *f, rt__m lanes, rt__f3 n, rt__f3 to_eye,
+                              rt__f3 to_light, rt__f *density)
+{
+    const rt__f zero = rt__all(0.0f);
+    const rt__f eye = rt__dot(n, to_eye), light = rt__dot(n, to_light);
+    const rt__m above = rt__less(zero, eye) & rt__less(zero, light);
+    const rt__m gloss = lanes & above & f->shiny;
+    const rt__f matt = light * 0.318309886184f;
+    rt__f3 sent = rt__scale(f->albedo, matt);
+    *density = matt;
+    if (rt__any(gloss)) {
+        rt__f glossy;
+        const rt__f3 two = rt__gloss(f, n, to_eye, to_light, &glossy);
+        sent = rt__vselect(gloss, two, sent);
+        *density = rt__select(gloss, glossy, matt);
+    }
+    *density = rt__select(above, *density, zero);
+    return rt__vselect(above, sent, rt__vec(zero, zero, zero));
+}
+
+/* rt_sample_finish, with rt_sample_gloss. Both it and rt_sample_cosine turn a basis. */
+RT__INLINE rt__f3 rt__choose(const rt__finishes *f, rt__m lanes, rt__f3 n, rt__f3 to_eye,
+                             rt__f r1, rt__f r2)
+{
+    const rt__f zero = rt__all(0.0f);
+    if (!rt__any(lanes & f->shiny))
+        return rt__cosine(n, r1, r2);
+    const rt__f chance = rt__chances(f, rt__dot(n, to_eye));
+    const rt__m gloss = rt__less(r1, chance);
+    const rt__f3 matt = rt__cosine(n, (r1 - chance) / (1.0f - chance), r2);
+    const rt__f a = rt__fsqrt(2.0f / (f->shininess + 2.0f));
+    rt__f3 x, y;
+    rt__basis(n, &x, &y);
+    const rt__f3 eye = rt__unity(
+        rt__vec(a * rt__dot(x, to_eye), a * rt__dot(y, to_eye), rt__dot(n, to_eye)));
+    rt__f sine, cosine;
+    rt__sincos(r1 / chance, &sine, &cosine);
+    const rt__f z = (1.0f - r2) * (1.0f + eye.z) - eye.z, zz = 1.0f - z * z;
+    const rt__f r = rt__fsqrt(rt__fmax(zz, zero));
+    const rt__f3 half =
+        rt__vec(a * (r * cosine + eye.x), a * (r * sine + eye.y), z + eye.z);
+    const rt__f3 facet = rt__unity(rt__add(
+        rt__add(rt__scale(x, half.x), rt__scale(y, half.y)), rt__scale(n, half.z)));
+    const rt__f3 mirrored =
+        rt__sub(rt__scale(facet, 2.0f * rt__dot(to_eye, facet)), to_eye);
+    return rt__vselect(gloss, mirrored, matt);
+}
+
+/* rt__direct_points, with rt__glossy_point. */
+RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
+                                  const rt__finishes *f, rt__f3 to_eye, uint64_t *rays)
+{
+    const rt_scene *scene = job->scene;
+    const rt__hits *hits = &p->hits;
+    const rt__f zero = rt__all(0.0f);
+    rt__f3 sum = rt__vec(zero, zero, zero);
+    for (int i = 0; i < scene->light_count; i++) {
+        const rt__f3 position = rt__vall(scene->lights[i].position);
+        const rt__f3 intensity = rt__vall(scene->lights[i].intensity);
+        const rt__f3 to_light = rt__sub(position, hits->point);
+        const rt__f toward = rt__dot(hits->normal, to_light);
+        const rt__m lit = f->aims & rt__less(zero, toward);
+        if (!rt__any(lit))
+            continue;
+        *rays += rt__count(lit);
+        const rt__f dd = rt__dot(to_light, to_light);
+        rt__m counts =
+            lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, position));
+        const rt__f part = rt__lambert(toward, dd, &counts);
+        rt__f3 light = rt__scale(rt__mul(f->albedo, intensity), part);
+        if (rt__any(f->shiny & counts)) {
+            rt__f density;
+            const rt__f3 sent =
+                rt__scatter(f, counts, hits->normal, to_eye,
+                            rt__scale(to_light, 1.0f / rt__fsqrt(dd)), &density);
+            light = rt__vselect(f->shiny, rt__scale(rt__mul(sent, intensity), 1.0f / dd),
+                                light);
+        }
+        sum = rt__vselect(counts, rt__add(sum, light), sum);
+    }
+    return sum;
+}
+
+/* rt_visible, where the light is so near the surface that rounding decides on which side
+ * it is. */
+RT__NOINLINE rt__m rt__unseen_alone(const rt_scene *scene, const rt__hits *hits,
+                                    const rt__f3 *end, unsigned lanes)
+{
+    rt__f blocked = {0.0f};
+    for (; lanes != 0; lanes &= lanes - 1u) {
+        const int lane = rt__lowest(lanes);
+        if (!rt_visible(scene, rt__at(hits->point, lane), rt__at(hits->normal, lane),
+                        rt__lane(end, lane)))
+            blocked[lane] = 1.0f;
+    }
+    return rt__less(rt__all(0.0f), blocked);
+}
+
+/* rt__direct_lamps. */
+RT__INLINE rt__f3 rt__from_lamps(const rt__job *job, const rt__packet *p,
+                                 const rt__finishes *f, rt__f3 to_eye, uint64_t *rays)
+{
+    const rt_scene *scene = job->scene;
+    const rt__hits *hits = &p->hits;
+    const rt__f zero = rt__all(0.0f);
+    rt__numbers numbers = p->numbers;
+    rt__f3 sum = rt__vec(zero, zero, zero);
+    for (int i = 0; i < scene->lamp_count; i++) {
+        const rt_lamp *lamp = &scene->lamps[i];
+        rt__f r1, r2, aimed, density;
+        rt__f3 toward;
+        rt__draw(&numbers, &r1, &r2);
+        numbers.dimension += 2u;
+        const rt__f3 end = rt__aim(lamp, hits->point, r1, r2, &toward, &aimed);
+        const rt__f3 sent =
+            rt__scatter(f, f->aims, hits->normal, to_eye, toward, &density);
+        const rt__m lit = f->aims & rt__less(zero, aimed) & rt__less(zero, density);
+        if (!rt__any(lit))
+            continue;
+        *rays += rt__count(lit);
+        const rt__f3 way = rt__sub(end, hits->point);
+        const rt__m below = lit & rt__less(rt__dot(hits->normal, way), zero);
+        rt__m unseen = rt__unseen(job, &p->place, lit & rt__no(below), hits->normal, end);
+        if (__builtin_expect(rt__any(below), 0))
+            unseen = (unseen & rt__no(below)) |
+                     rt__unseen_alone(scene, hits, &end, rt__bits(below));
+        rt__m counts = lit & rt__no(unseen);
+        if (scene->lamp_count > 1)
+            counts &= rt__same(
+                rt__nearest_lamps(scene, &hits->point, &way, counts, rt__all(1.0f), i),
+                (rt__i)zero - 1);
+        const rt__f3 light = rt__scale(rt__mul(sent, rt__vall(rt_lamp_radiance(lamp))),
+                                       rt__mis(aimed, density) / aimed);
+        sum = rt__vselect(counts, rt__add(sum, light), sum);
+    }
+    return sum;
+}
+
+/* The lamps that rays of these lanes have met, where their paths end. */
+RT__NOINLINE void rt__meet_lamps(const rt__job *job, rt__packet *p, rt__i nearest,
+                                 rt__m lanes)
+{
+    const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
+    const rt__i none = (rt__i)zero;
+    p->lanes &= rt__no(lanes);
+    while (rt__any(lanes)) { /* one lamp after the other */
+        const int number = nearest[rt__lowest(rt__bits(lanes))];
+        const rt_lamp *lamp = &job->scene->lamps[number];
+        const rt__m here = lanes & rt__same(nearest, none + number);
+        const rt__f aimed = rt__lamp_density(lamp, p->from, p->direction);
+        const rt__f weight =
+            rt__select(rt__less(zero, p->density), rt__mis(p->density, aimed), one);
+        const rt__f3 light = rt__scale(rt__vall(rt_lamp_radiance(lamp)), weight);
+        p->sum =
+            rt__vselect(here, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+        lanes &= rt__no(here);
+    }
+}
+
+/* rt_radiance_mis, after the nearest hit: first what shines where the ray arrives, ... */
+RT__INLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
+{
+    const rt_scene *scene = job->scene;
+    const rt__hits *hits = &p->hits;
+    const rt__f zero = rt__all(0.0f);
+    if (scene->lamp_count > 0) {
+        const rt__f t_max =
+            rt__select(rt__less(hits->kind, zero), rt__all(FLT_MAX), hits->t);
+        const rt__i nearest = rt__nearest_lamps(scene, &p->place.origin, &p->direction,
+                                                p->lanes, t_max, -1);
+        const rt__m met = p->lanes & rt__no(rt__same(nearest, (rt__i)zero - 1));
+        if (rt__any(met))
+            rt__meet_lamps(job, p, nearest, met);
+    }
+    const rt__m missed = p->lanes & rt__less(hits->kind, zero);
+    if (rt__any(missed) && bounce <= job->options.bounces) {
+        const rt__f3 light = rt__sky(scene, &p->direction, rt__bits(missed));
+        p->sum =
+            rt__vselect(missed, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+    }
+    p->lanes &= rt__no(missed);
+    if (job->table->emits) {
+        const rt__f3 light =
+            rt__vof_surface(job, &job->table->emission, offsetof(rt_surface, emission),
+                            hits->shape, p->lanes);
+        p->sum =
+            rt__vselect(p->lanes, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+    }
+}
+
+/* ... then direct light and the way on. */
+RT__NOINLINE void rt__scatter_on(const rt__job *job, rt__packet *p, int bounce,
+                                 uint64_t *rays)
+{
+    const rt_scene *scene = job->scene;
+    const rt__f zero = rt__all(0.0f);
+    const rt__u nothing = (rt__u)zero;
+    const rt__m none = {0};
+    const rt__hits *hits = &p->hits;
+    rt__arrive(job, p, bounce);
+    if (bounce > job->options.bounces || !rt__any(p->lanes))
+        return;
+    const rt__f3 n = hits->normal, u = p->direction;
+    const rt__f3 to_eye = rt__scale(u, rt__all(-1.0f));
+    const rt__finishes f = rt__finishes_of(job, hits, p->lanes);
+    const rt__m mirror = f.metal & rt__no(f.shiny | f.glass);
+    const rt__i two = (rt__i)zero + 2, pairs = (rt__i)zero + 2 * scene->lamp_count;
+
+    /* the pair for the way on comes after those for the lamps, which only some draw */
+    rt__numbers numbers = p->numbers;
+    numbers.dimension += (rt__u)rt__iselect(f.aims, pairs, (rt__i)nothing);
+    rt__f r1, r2;
+    rt__draw(&numbers, &r1, &r2);
+
+    /* Glass and mirrors know the way before any light is asked for; so one place does for
+     * the rays to the lights and for the way on. */
+    rt__f3 direction = rt__sub(u, rt__scale(n, 2.0f * rt__dot(u, n)));
+    rt__m through = none;
+    if (rt__any(f.glass))
+        through = rt__through_glass(job, p, f.glass, f.eta, r1, &direction);
+    const rt__m below = rt__no(f.aims) & rt__less(rt__dot(n, direction), zero);
+    const rt__i nowhere = (rt__i)zero + RT__NOWHERE;
+    const rt__m known = through & rt__no(rt__same(hits->left, nowhere));
+    rt__start_at(
+        job->table, &p->place, rt__leave(hits->point, n, below),
+        rt__iselect(below, rt__iselect(known, ~hits->left, nowhere), hits->left));
+    p->density = zero;
+    p->throughput = rt__vselect(mirror, rt__mul(p->throughput, f.albedo), p->throughput);
+    if (rt__any(f.aims)) {
+        const rt__f3 points = rt__from_points(job, p, &f, to_eye, rays);
+        const rt__f3 direct = rt__add(points, rt__from_lamps(job, p, &f, to_eye, rays));
+        p->sum =
+            rt__vselect(f.aims, rt__add(p->sum, rt__mul(p->throughput, direct)), p->sum);
+        direction =
+            rt__vselect(f.aims, rt__choose(&f, f.aims, n, to_eye, r1, r2), direction);
+        rt__f density;
+        const rt__f3 sent = rt__scatter(&f, f.aims, n, to_eye, direction, &density);
+        const rt__f3 part =
+            rt__vselect(f.shiny, rt__scale(sent, 1.0f / density), f.albedo);
+        p->throughput = rt__vselect(f.aims, rt__mul(p->throughput, part), p->throughput);
+        p->density = rt__select(f.aims, density, zero);
+        p->lanes &= rt__no(f.aims) | rt__less(zero, density);
+    }
+    p->numbers.dimension = numbers.dimension + (rt__u)rt__iselect(mirror, two - 2, two);
+    p->from = hits->point;
+    p->direction = direction;
+    rt__go_on(job, p, bounce);
+}
+
+RT__INLINE uint64_t rt__trace_mis(const rt__job *job, rt__packet *packets, int count,
+                                  rt_watch *watch)
+{
+    const int last = job->options.bounces;
+    const bool one_more = job->scene->lamp_count > 0 || job->scene->surfaces;
+    uint64_t rays = 0;
+    for (int bounce = 0;; bounce++) {
+        bool done = true;
+        for (int k = 0; k < count; k++) {
+            if (!rt__any(packets[k].lanes))
+                continue;
+            rays += rt__count(packets[k].lanes);
+            rt__tick(watch);
+            rt__extend(job, &packets[k]);
+            rt__scatter_on(job, &packets[k], bounce, &rays);
+            done = done && !rt__any(packets[k].lanes);
+        }
+        if (done || bounce > last || (bounce == last && !one_more))
+            return rays;
+    }
+}
+
+/* rt__film_lens_ray. */
+RT__NOINLINE void rt__through_lens(const rt__job *job, rt__packet *p)
+{
+    const rt_lens *lens = &job->options.lens;
+    const rt__film *film = &job->film;
+    const rt__f zero = rt__all(0.0f);
+    const rt__f3 right = rt__vall(rt_to_float(film->right));
+    const rt__f3 top = rt__vall(rt_to_float(film->top)), u = p->direction;
+    const rt__f along = rt__dot(u, rt__vall(rt_to_float(film->forward)));
+    const rt__m good = rt__less(zero, along);
+    rt__f r1, r2, sine, cosine;
+    rt__draw(&p->numbers, &r1, &r2);
+    p->numbers.dimension += 2u;
+    const rt__f radius = lens->radius * rt__fsqrt(r2);
+    rt__sincos(r1, &sine, &cosine);
+    const rt__f3 aside =
+        rt__add(rt__scale(right, radius * cosine), rt__scale(top, radius * sine));
+    const rt__f3 way = rt__sub(rt__scale(u, lens->focus / along), aside);
+    rt__d3 d[2];
+    for (int h = 0; h < 2; h++) {
+        d[h] = rt__vwiden(way, h);
+        const rt__d length = rt__dsqrt(rt__ddot(d[h], d[h]));
+        const rt__l there = length > 0.0;
+        d[h] = rt__dscale(d[h], (rt__d)(there & (rt__l)(1.0 / length)));
+    }
+    p->hits.point = rt__vselect(good, rt__add(p->hits.point, aside), p->hits.point);
+    p->direction = rt__vselect(good, rt__vjoin(d), u);
 }
 
 /* rt__start, rt__look and rt__film_ray: the pixels from number first on. */
@@ -5788,6 +6591,11 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     p->hits.point = rt__vall(film->position);
     p->hits.normal = p->sum;
     p->hits.left = (rt__i)zero + RT__NOWHERE;
+    p->hits.shape = (rt__i)zero;
+    if (job->options.lens.radius > 0.0f)
+        rt__through_lens(job, p);
+    p->from = p->hits.point;
+    p->density = zero;
     rt__set_out(job, p, none);
 }
 
@@ -5802,24 +6610,41 @@ RT__INLINE rt_guide rt__guide_of(const rt__packet *p, int lane)
 }
 
 /* rt__step_pixels with rt__pixel. */
-static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int last,
-                                 rt_watch *watch, rt_vec3 *values, rt_guide *guides)
+RT__INLINE uint64_t rt__step_all(const rt__job *job, int sample, int first, int last,
+                                 rt_watch *watch, rt_vec3 *values, rt_guide *guides,
+                                 bool part_two)
 {
     rt__packet packets[RT__FLIGHT];
     uint64_t rays = 0;
     for (int i = first; i < last;) {
         int count = 0;
         for (int from = i; count < RT__FLIGHT && from < last; from += RT__LANES)
-            rt__begin(job, sample, from, last, guides != NULL, &packets[count++]);
-        rays += rt__trace(job, packets, count, watch);
+            rt__begin(job, sample, from, last, guides != NULL && !part_two,
+                      &packets[count++]);
+        rays += part_two ? rt__trace_mis(job, packets, count, watch)
+                         : rt__trace(job, packets, count, watch);
         for (int k = 0; k < count; k++)
             for (int lane = 0; lane < RT__LANES && i < last; lane++, i++) {
                 values[i - first] = rt__lane(&packets[k].sum, lane);
                 if (guides)
-                    guides[i - first] = rt__guide_of(&packets[k], lane);
+                    guides[i - first] = part_two
+                                            ? rt__guide(job, i, rt__start(job, sample, i))
+                                            : rt__guide_of(&packets[k], lane);
             }
     }
     return rays;
+}
+
+static uint64_t rt__step_packets(const rt__job *job, int sample, int first, int last,
+                                 rt_watch *watch, rt_vec3 *values, rt_guide *guides)
+{
+    return rt__step_all(job, sample, first, last, watch, values, guides, false);
+}
+
+static uint64_t rt__step_packets_mis(const rt__job *job, int sample, int first, int last,
+                                     rt_watch *watch, rt_vec3 *values, rt_guide *guides)
+{
+    return rt__step_all(job, sample, first, last, watch, values, guides, true);
 }
 
 /* rt__run, in packets. The scene must have its tree. */
@@ -5827,11 +6652,17 @@ static rt_status rt__run_packets(rt__job *job)
 {
     rt__table table;
     memset(&table, 0, sizeof table);
-    table.few = rt__are_few(job->scene, job->camera);
+    const rt_scene *scene = job->scene;
+    const int surfaces = scene->surfaces ? scene->sphere_count + scene->box_count : 0;
+    table.few = rt__are_few(scene, job->camera, &job->options.lens);
     if (table.few)
-        rt__set_table(&table, job->scene);
+        rt__set_table(&table, scene);
+    for (int i = 0; i < surfaces; i++) {
+        table.patterns = table.patterns || scene->surfaces[i].pattern;
+        table.emits = table.emits || !rt_is_zero(scene->surfaces[i].emission);
+    }
     job->table = &table;
-    job->step = rt__step_packets;
+    job->step = rt__is_part_two(scene) ? rt__step_packets_mis : rt__step_packets;
     job->together = RT__LANES * RT__FLIGHT;
     job->ticks = table.few ? 64 : 1;
     return rt__run(job);

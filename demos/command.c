@@ -23,7 +23,11 @@ void command_help(const demo *d)
            "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
            "                or %s.png where there is no folder build)\n"
            "  --explain X,Y only print what happens in this pixel (from chapter 7)\n"
-           "  --denoise     finish the picture: chapter 10 (from chapter 7)\n"
+           "  --denoise     finish the picture: chapter 10 (from chapter 7);\n"
+           "                from chapter 10 it is, unless you say --no-denoise\n"
+           "  --exposure EV brighter by so many stops, each twice the light; or darker, "
+           "-1\n"
+           "%s"
            "  --no-window   only render and write\n"
            "  --preview     draw the picture in the terminal, too, as it refines\n"
            "  --quiet       print nothing but errors\n"
@@ -33,7 +37,14 @@ void command_help(const demo *d)
            d->name, d->title, d->name, d->name, d->samples, d->bounces,
            d->bounces == 0 ? "; this chapter has none yet" : "",
            d->render ? "as many as the machine can" : "1; this chapter has no more",
-           d->sobol ? "sobol" : "random", d->name, d->name);
+           d->sobol ? "sobol" : "random", d->name, d->name,
+           d->texture ? "  --texture FILE a picture for the ball, PNG or JPEG\n" : "");
+}
+
+/* Chapter 7 and later: paths of more than one bounce, by chance. */
+static bool has_paths(const demo *d)
+{
+    return d->stage >= 7;
 }
 
 /* A whole number from low to high, digits only; otherwise one line that says so. */
@@ -73,15 +84,34 @@ static bool parse_decimal(const demo *d, const char *name, const char *word,
     return good;
 }
 
+/* A decimal number with or without a sign, -20 to 20. */
+static bool parse_exposure(const demo *d, const char *word, float *value)
+{
+    const char *digits = word && (*word == '-' || *word == '+') ? word + 1 : word;
+    bool good = digits && *digits && strspn(digits, "0123456789.") == strlen(digits);
+    if (good) {
+        char *end;
+        const double number = strtod(word, &end);
+        good = *end == '\0' && number >= -20.0 && number <= 20.0;
+        *value = good ? (float)number : 0.0f;
+    }
+    if (!good && !word)
+        fprintf(stderr, "%s: --exposure: a number is missing\n", d->name);
+    else if (!good)
+        fprintf(stderr, "%s: --exposure: '%s' is not a number of stops, -20 to 20\n",
+                d->name, word);
+    return good;
+}
+
 /* Like parse_number, or all, where the demo's paths can end by roulette. */
 static bool parse_bounces(const demo *d, const char *word, long long *value)
 {
     if (!word || strcmp(word, "all") != 0)
         return parse_number(d, "--bounces", word, 0, INT_MAX - 1, value);
-    if (!d->explain)
+    if (!has_paths(d))
         fprintf(stderr, "%s: --bounces: 'all' is for chapter 7 and later\n", d->name);
     *value = RT_ALL_BOUNCES;
-    return d->explain;
+    return has_paths(d);
 }
 
 static bool parse_sampler(const demo *d, const char *word, rt_sampler *sampler)
@@ -145,6 +175,17 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
         } else if (strcmp(arg, "--time") == 0) {
             if (!parse_decimal(d, arg, argv[++i], "time in seconds", &s->seconds))
                 return false;
+        } else if (strcmp(arg, "--exposure") == 0) {
+            if (!parse_exposure(d, argv[++i], &s->exposure))
+                return false;
+        } else if (strcmp(arg, "--texture") == 0) {
+            s->texture = argv[++i];
+            if (!s->texture || !d->texture) {
+                fprintf(stderr, "%s: --texture: %s\n", d->name,
+                        s->texture ? "only chapter 15 can do that"
+                                   : "a file name is missing");
+                return false;
+            }
         } else if (strcmp(arg, "--sampler") == 0) {
             if (!parse_sampler(d, argv[++i], &s->sampler))
                 return false;
@@ -160,6 +201,8 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
             s->window = false;
         } else if (strcmp(arg, "--denoise") == 0) {
             s->denoise = true;
+        } else if (strcmp(arg, "--no-denoise") == 0) {
+            s->denoise = false;
         } else if (strcmp(arg, "--preview") == 0) {
             s->preview = true;
         } else if (strcmp(arg, "--quiet") == 0) {
@@ -196,15 +239,15 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
             fprintf(stderr, " or %d\n", most);
         return false;
     }
-    if (s->explain && (!d->explain || s->x >= s->width || s->y >= s->height)) {
-        if (!d->explain)
+    if (s->explain && (!has_paths(d) || s->x >= s->width || s->y >= s->height)) {
+        if (!has_paths(d))
             fprintf(stderr, "%s: --explain: chapter 7 and later can do that\n", d->name);
         else
             fprintf(stderr, "%s: --explain: %ld,%ld is not in a picture of %lld x %lld\n",
                     d->name, s->x, s->y, s->width, s->height);
         return false;
     }
-    if (s->denoise && !d->explain)
+    if (s->denoise && !has_paths(d))
         return fprintf(stderr, "%s: --denoise: chapter 7 and later can do that\n",
                        d->name),
                false;

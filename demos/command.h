@@ -10,8 +10,9 @@ typedef struct settings {
     long long width, height, bounces, threads, lanes, seed;
     long long samples;    /* 0: as many as error and seconds allow */
     float error, seconds; /* 0: not wanted */
+    float exposure;       /* in stops */
     rt_sampler sampler;
-    const char *out;
+    const char *out, *texture; /* files; NULL: none */
     bool window, preview, quiet, help, explain, denoise;
     long x, y; /* the pixel to explain */
 } settings;

@@ -23,7 +23,10 @@ typedef enum demo_kind {
     LINE_MIRROR,
     LINE_NORMAL,
     LINE_LIT, /* to the lamp, and what is behind something on the way */
-    LINE_BLOCKED
+    LINE_BLOCKED,
+    LINE_GLOSS, /* part two: sent on by a gloss; and by glass, or through it */
+    LINE_GLASS,
+    LINE_KINDS
 } demo_kind;
 
 typedef struct demo_line {
@@ -36,7 +39,7 @@ typedef struct demo_line {
 enum { DEMO_STATE = 256 }; /* bytes, at most, for save */
 
 typedef struct demo_live {
-    /* The picture of chapter 1 to 7 of the same view; and its direct light only, quickly. */
+    /* One of its pictures, see viewer_chapter, of the same view; and its direct light only, quickly. */
     rt_status (*render)(int stage, const demo_view *view, const rt_options *options,
                         rt_image *image);
     rt_status (*draft)(int stage, const demo_view *view, const rt_options *options,
@@ -53,6 +56,10 @@ typedef struct demo_live {
     const char *(*name)(int thing);
     void (*drag)(int thing, const demo_view *view, float right_pixels, float up_pixels,
                  bool over_the_floor);
+    /* Change what the thing has beside its place, by the wheel: the lamp's size, the ball's
+     * gloss. False: it has nothing of the kind. In words what it is now. */
+    bool (*tune)(int stage, int thing, float notches);
+    void (*say)(int stage, int thing, demo_text *out);
     /* C code that brings this view back. */
     void (*print)(demo_text *out);
     /* Lines: the things in the room; and the path of one sample of the pixel (x, y), which
@@ -61,6 +68,9 @@ typedef struct demo_live {
     int (*path)(int stage, const demo_view *view, const rt_options *options,
                 const rt_image *image, int x, int y, int sample, demo_line *lines,
                 int most, demo_text *summary, demo_text *words);
+    /* The paths of all samples of the pixel, and their mean, to stdout. */
+    rt_status (*explain)(int stage, const rt_options *options, const rt_image *image,
+                         int x, int y);
     /* All that moves, to memory, and back: the number of bytes, at most DEMO_STATE. */
     size_t (*save)(void *to);
     void (*load)(const void *from);
@@ -82,10 +92,11 @@ typedef struct demo {
     /* NULL, or what the demo measures and prints before its picture, unless --quiet. */
     void (*measure)(int threads);
 
-    /* NULL, or what --explain prints about the pixel (x, y). */
-    rt_status (*explain)(const rt_options *options, const rt_image *image, int x, int y);
+    const demo_live *live; /* NULL: a window in which nothing moves; */
+    int stage;             /* else which of its pictures is the demo's */
 
-    const demo_live *live; /* NULL: a window in which nothing moves */
+    /* NULL, or who gets the picture of --texture: linear, row by row from the top. It stays. */
+    void (*texture)(const rt_vec3 *pixels, int width, int height);
 
     /* The byte for one channel of a pixel: demo_linear, demo_gamma or the demo's own. */
     unsigned char (*encode)(float value);

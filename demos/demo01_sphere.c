@@ -56,6 +56,7 @@ int main(int argc, char **argv)
                              .title = "1. A sphere",
                              .pixel = pixel,
                              .live = &live_room,
+                             .stage = 1,
                              .encode = demo_linear,
                              .samples = 16});
 }

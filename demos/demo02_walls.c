@@ -49,6 +49,7 @@ int main(int argc, char **argv)
                              .title = "2. Walls, and Lambert's law",
                              .pixel = pixel,
                              .live = &live_room,
+                             .stage = 2,
                              .encode = demo_linear,
                              .samples = 16});
 }

@@ -64,6 +64,7 @@ int main(int argc, char **argv)
                              .title = "3. A cube",
                              .pixel = pixel,
                              .live = &live_room,
+                             .stage = 3,
                              .encode = demo_linear,
                              .samples = 16});
 }

@@ -52,6 +52,7 @@ int main(int argc, char **argv)
                              .title = "4. Shadows",
                              .pixel = pixel,
                              .live = &live_room,
+                             .stage = 4,
                              .encode = demo_linear,
                              .samples = 16});
 }

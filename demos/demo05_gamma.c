@@ -35,6 +35,7 @@ int main(int argc, char **argv)
                              .title = "5. Gamma",
                              .pixel = pixel,
                              .live = &live_room,
+                             .stage = 5,
                              .encode = encode,
                              .samples = 16});
 }

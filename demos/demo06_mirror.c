@@ -37,6 +37,7 @@ int main(int argc, char **argv)
                              .title = "6. A mirror",
                              .pixel = pixel,
                              .live = &live_room,
+                             .stage = 6,
                              .encode = demo_gamma,
                              .samples = 16,
                              .bounces = 5});

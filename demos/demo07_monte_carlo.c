@@ -60,8 +60,8 @@ int main(int argc, char **argv)
                      &(demo){.name = "demo07",
                              .title = "7. Indirect light",
                              .pixel = pixel,
-                             .explain = explain_indirect,
                              .live = &live_room,
+                             .stage = 7,
                              .encode = demo_gamma,
                              .samples = 16,
                              .bounces = 5});

@@ -1,18 +1,34 @@
 /* What happens in one pixel, in words: the paths of its samples, as rt_trace_pixel writes them
- * down. For demos 7 to 9, whose pixels are rt_radiance's. */
+ * down. For demos 7 to 15, whose pixels are rt_radiance's or rt_radiance_mis's. */
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 
 #include "scene.h"
 #include "text.h"
 
-static const char *shape_name(int shape)
+/* Spheres come first, and the last shape is the cube. */
+static const char *shape_name(const rt_scene *scene, int shape)
 {
     static const char *const names[] = {
-        "nothing",   "the red sphere", "the left wall", "the ceiling", "the right wall",
-        "the floor", "the back wall",  "the mirror",    "the cube",
+        "nothing",       "the red sphere", "the left wall",
+        "the ceiling",   "the right wall", "the floor",
+        "the back wall", "the mirror",     "the glass ball",
     };
-    return names[shape + 1];
+    return shape < scene->sphere_count ? names[shape + 1] : "the cube";
+}
+
+/* How the path goes on, from glass also on which side of it. */
+static const char *event_name(const rt_vertex *v)
+{
+    switch (v->event) {
+    case RT_EVENT_MATT: return "matt";
+    case RT_EVENT_GLOSS: return "gloss";
+    case RT_EVENT_MIRROR: return "mirror";
+    case RT_EVENT_REFLECTED: return v->inside ? "reflected inside" : "reflected";
+    case RT_EVENT_REFRACTED: return v->inside ? "refracted, out" : "refracted, in";
+    case RT_EVENT_LAMP: return "lamp";
+    default: return "gone";
+    }
 }
 
 static void print_vec(demo_text *out, const char *before, rt_vec3 v, const char *after)
@@ -21,13 +37,33 @@ static void print_vec(demo_text *out, const char *before, rt_vec3 v, const char 
              after);
 }
 
-static void print_vertex(demo_text *out, const rt_path *path, int n)
+/* What came of the question for a light. */
+static void print_shadow(demo_text *out, const rt_scene *scene, const rt_shadow *s)
+{
+    text_add(out, "  |    lamp: cosine %.6g, d^2 %.6g, ", (double)s->cosine,
+             (double)s->dd);
+    if (s->blocker >= 0) {
+        text_add(out, "hidden by %s, %.0f %% of the way\n", shape_name(scene, s->blocker),
+                 100.0 * (double)s->t);
+        return;
+    }
+    if (s->lamp >= 0)
+        text_add(out, "aimed at, weight %.3f, ", (double)s->weight);
+    print_vec(out, "seen, sends ", s->light_sent, "\n");
+}
+
+static void print_vertex(demo_text *out, const rt_scene *scene, const rt_path *path,
+                         int n)
 {
     const rt_vertex *v = &path->vertices[n];
+    const bool lamp = v->event == RT_EVENT_LAMP;
     text_add(out, "  +- %s %s", n == 0 ? "camera ray meets" : "goes on to",
-             shape_name(v->shape));
-    if (v->shape < 0) {
-        print_vec(out, ", background ", v->light, "");
+             lamp ? "the lamp" : shape_name(scene, v->shape));
+    if (lamp) {
+        text_add(out, n == 0 ? "" : ", by chance, weight %.3f", (double)v->weight);
+        print_vec(out, ", sends ", v->light, "");
+    } else if (v->shape < 0) {
+        print_vec(out, scene->sky ? ", sky " : ", background ", v->light, "");
     } else {
         text_add(out, " at t = %.6g\n", (double)v->hit.t);
         print_vec(out, "  |    P ", v->hit.point, "");
@@ -35,33 +71,33 @@ static void print_vertex(demo_text *out, const rt_path *path, int n)
     }
     print_vec(out, "\n  |    throughput ", v->throughput, "\n");
     bool asked = false;
-    for (int i = 0; i < path->shadow_count; i++) {
-        const rt_shadow *s = &path->shadows[i];
-        if (s->vertex != n)
-            continue;
-        asked = true;
-        text_add(out, "  |    lamp: cosine %.6g, d^2 %.6g, ", (double)s->cosine,
-                 (double)s->dd);
-        if (s->blocker < 0)
-            print_vec(out, "seen, sends ", s->light_sent, "\n");
-        else
-            text_add(out, "hidden by %s, %.0f %% of the way\n", shape_name(s->blocker),
-                     100.0 * (double)s->t);
-    }
-    if (!asked && v->shape >= 0)
-        text_add(out, "  |    %s\n",
-                 v->hit.material->mirror
-                     ? "a mirror: the light comes from where it points"
-                     : "lamp: behind the surface");
+    for (int i = 0; i < path->shadow_count && i < path->max_shadows; i++)
+        if (path->shadows[i].vertex == n) {
+            asked = true;
+            print_shadow(out, scene, &path->shadows[i]);
+        }
+    const bool part_two = scene->surfaces != NULL;
+    if (v->shape >= 0 && v->event == RT_EVENT_MIRROR)
+        text_add(out, "  |    a mirror: the light comes from where it points\n");
+    else if (v->shape >= 0 &&
+             (v->event == RT_EVENT_REFLECTED || v->event == RT_EVENT_REFRACTED))
+        text_add(out, "  |    glass: %s\n", event_name(v));
+    else if (v->shape >= 0 && !asked)
+        text_add(out, "  |    lamp: behind the surface\n");
+    if (part_two && v->density > 0.0f)
+        text_add(out, "  |    goes on by %s, density %.6g\n",
+                 v->event == RT_EVENT_GLOSS ? "the gloss" : "the matt body",
+                 (double)v->density);
     print_vec(out, "  |    adds ", rt_mul(v->throughput, v->light), "\n");
 }
 
 /* One sample, as rt_trace_pixel has written it down. */
-static void print_path(demo_text *out, const rt_path *path, int sample)
+static inline void print_path(demo_text *out, const rt_scene *scene, const rt_path *path,
+                              int sample)
 {
     text_add(out, "sample %d\n", sample);
     for (int n = 0; n < path->vertex_count && n < path->max_vertices; n++)
-        print_vertex(out, path, n);
+        print_vertex(out, scene, path, n);
     if (path->vertex_count > path->max_vertices)
         text_add(out, "  +- and %d more\n", path->vertex_count - path->max_vertices);
     print_vec(out, "  = ", path->value, "\n");
@@ -69,7 +105,7 @@ static void print_path(demo_text *out, const rt_path *path, int sample)
 
 /* A path of up to MOST_VERTICES, with memory of its own: one at a time. */
 enum { MOST_VERTICES = 100 };
-static rt_path empty_path(void)
+static inline rt_path empty_path(void)
 {
     static rt_vertex vertices[MOST_VERTICES];
     static rt_shadow shadows[MOST_VERTICES];
@@ -80,29 +116,5 @@ static rt_path empty_path(void)
 }
 
 enum { MOST_WORDS = 1 << 16 }; /* of one path */
-
-static inline rt_status explain_indirect(const rt_options *options, const rt_image *image,
-                                         int x, int y)
-{
-    static char words[MOST_WORDS];
-    rt_path path = empty_path();
-    rt_vec3 mean = {0, 0, 0};
-    demo_text out;
-    for (int k = 0; k < options->samples; k++) {
-        const rt_status status =
-            rt_trace_pixel(&scene_indirect, &room_camera, options, image, x, y, k, &path);
-        if (status != RT_OK)
-            return status;
-        out = text_in(words, sizeof words);
-        print_path(&out, &path, k);
-        printf("%s", words);
-        mean = rt_add(mean, rt_scale(rt_sub(path.value, mean), 1.0f / (float)(k + 1)));
-    }
-    out = text_in(words, sizeof words);
-    print_vec(&out, "mean: ", mean, "");
-    printf("%s, as bytes %d, %d, %d\n", words, rt_encode(mean.x, 2.2),
-           rt_encode(mean.y, 2.2), rt_encode(mean.z, 2.2));
-    return RT_OK;
-}
 
 #endif

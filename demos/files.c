@@ -14,6 +14,13 @@
 #define STBI_WRITE_NO_STDIO
 #include <stb_image_write.h>
 
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
+#include <stb_image.h>
+
 static bool file_error(const char *who, const char *path)
 {
     fprintf(stderr, "%s: cannot write '%s': %s\n", who, path, strerror(errno));
@@ -144,4 +151,26 @@ bool files_save_png(const char *who, const char *path, int width, int height,
 bool files_is_pfm(const char *path)
 {
     return strcmp(strrchr(path, '.'), ".pfm") == 0;
+}
+
+/* Of a byte the light is (byte / 255)^2.2, as chapter 5 has it. */
+rt_vec3 *files_load(const char *who, const char *path, int *width, int *height)
+{
+    unsigned char *bytes = stbi_load(path, width, height, NULL, 3);
+    const size_t count = bytes ? (size_t)*width * (size_t)*height : 0;
+    rt_vec3 *pixels = count > 0 ? malloc(count * sizeof *pixels) : NULL;
+    float light[256];
+    for (int i = 0; i < 256; i++)
+        light[i] = (float)pow(i / 255.0, 2.2);
+    for (size_t i = 0; pixels && i < count; i++)
+        pixels[i] =
+            rt_vec(light[bytes[3 * i]], light[bytes[3 * i + 1]], light[bytes[3 * i + 2]]);
+    if (!bytes)
+        fprintf(stderr, "%s: cannot read '%s' as PNG or JPEG: %s\n", who, path,
+                stbi_failure_reason());
+    else if (!pixels)
+        fprintf(stderr, "%s: '%s': not enough memory for %d x %d pixels\n", who, path,
+                *width, *height);
+    stbi_image_free(bytes);
+    return pixels;
 }

@@ -13,5 +13,8 @@ bool files_save_png(const char *who, const char *path, int width, int height,
                     const unsigned char *bytes);
 bool files_save_pfm(const char *who, const char *path, int width, int height,
                     const rt_vec3 *pixels);
+/* A PNG or JPEG as linear light, row by row from the top: to be freed. NULL: it was not to be
+ * read. */
+rt_vec3 *files_load(const char *who, const char *path, int *width, int *height);
 
 #endif

@@ -1,6 +1,6 @@
 /* The room that moves: what the viewer asks of the scene of a demo, in place of scene.h. The
- * stages 1 to 7 are the chapters' pictures of the same view, by rt.h; the demo's own function
- * takes the place of one of them. */
+ * stages are the chapters' pictures of the same view, by rt.h, 1 to 7 and then those of part
+ * two; the demo's own function takes the place of one of them. */
 #ifndef LIVE_H
 #define LIVE_H
 
@@ -11,11 +11,31 @@
 
 static const rt_scene *live_scene(int stage)
 {
-    return stage == 1   ? &scene_sphere
-           : stage == 2 ? &scene_walls
-           : stage <= 5 ? &scene_cube
-           : stage == 6 ? &scene_mirror
-                        : &scene_indirect;
+    static const rt_scene *const scenes[] = {
+        NULL,         &scene_sphere, &scene_walls,    &scene_cube,  &scene_cube,
+        &scene_cube,  &scene_mirror, &scene_indirect, &scene_glass, &scene_lamps,
+        &scene_gloss, &scene_sky,    &scene_patterns,
+    };
+    return scenes[stage];
+}
+
+/* The stages of part two, and the first whose paths rt_trace_pixel follows as they are. */
+enum {
+    STAGE_INDIRECT = 7,
+    STAGE_GLASS,
+    STAGE_LAMPS,
+    STAGE_GLOSS,
+    STAGE_SKY,
+    STAGE_PATTERNS
+};
+
+/* What the stage wants besides what the reader does. */
+static rt_options live_options(int stage, const rt_options *options)
+{
+    rt_options o = *options;
+    if (stage == STAGE_SKY)
+        o.lens = room_lens;
+    return o;
 }
 
 /* -------------------------------------------------------------------------------------
@@ -57,32 +77,35 @@ static rt_status live_render(int stage, const demo_view *view, const rt_options 
                              rt_image *image)
 {
     const live_context context = {stage, view};
-    if (stage == 7)
-        return rt_render(&scene_indirect, &room_camera, options, image);
+    const rt_options o = live_options(stage, options);
+    if (stage >= STAGE_INDIRECT)
+        return rt_render(live_scene(stage), &room_camera, &o, image);
     return rt_render_pixels(live_pixel, &context, options, image);
 }
 
 static unsigned char live_encode(int stage, float value)
 {
+    if (stage == STAGE_SKY) /* as demo14 does */
+        value = (float)(1 - exp(-(double)value));
     return rt_encode(value, stage < 5 ? 1.0 : 2.2);
 }
 
-/* Direct light, at once: all lanes without bounces. What is black then may be a mirror: these
+/* Direct light, at once: all lanes without bounces, in part two with a few. What is black then may be a mirror: these
  * pixels are asked again, one ray at a time. */
 static rt_status live_draft(int stage, const demo_view *view, const rt_options *options,
                             rt_image *image)
 {
     if (stage < 4)
         return live_render(stage, view, options, image);
-    rt_options direct = *options;
-    direct.bounces = 0;
+    rt_options direct = live_options(stage, options);
+    direct.bounces = stage >= STAGE_GLASS ? 3 : 0; /* through glass, and what is behind */
     const rt_status status = rt_render(live_scene(stage), &room_camera, &direct, image);
     demo_view mirrors = *view;
     mirrors.bounces = view->bounces > 0 ? view->bounces : 5;
     const live_context context = {stage == 7 ? 6 : stage, &mirrors};
     const int width = image->width, count = width * image->height;
     const float dim = room_dim_light.intensity.x / room_light.intensity.x;
-    if (status != RT_OK || stage < 6)
+    if (status != RT_OK || stage < 6 || stage >= STAGE_GLASS)
         return status;
 #ifdef _OPENMP
     const int threads = rt_thread_count(options->threads);
@@ -176,15 +199,15 @@ static void live_zoom(float factor)
 }
 
 /* -------------------------------------------------------------------------------------
- * Things: the ball, the mirror, the cube, the lamp
+ * Things: the ball, the mirror, the cube, the lamp, the ball of glass
  * ------------------------------------------------------------------------------------- */
 
-enum { BALL = 1, MIRROR, CUBE, LAMP };
+enum { BALL = 1, MIRROR, CUBE, LAMP, GLASS, THINGS };
 
 static const char *live_name(int thing)
 {
-    static const char *const names[] = {"nothing", "the ball", "the mirror", "the cube",
-                                        "the lamp"};
+    static const char *const names[THINGS] = {"nothing",  "the ball", "the mirror",
+                                              "the cube", "the lamp", "the glass ball"};
     return names[thing];
 }
 
@@ -192,7 +215,8 @@ static rt_vec3 live_middle(int thing)
 {
     switch (thing) {
     case BALL: return room_spheres[0].center;
-    case MIRROR: return room_spheres[6].center;
+    case MIRROR: return room_spheres[ROOM_MIRROR].center;
+    case GLASS: return room_spheres[ROOM_GLASS].center;
     case CUBE: return rt_scale(rt_add(room_cube.min, room_cube.max), 0.5f);
     default: return room_light.position;
     }
@@ -203,9 +227,10 @@ static float live_reach(int thing)
 {
     switch (thing) {
     case BALL: return room_spheres[0].radius;
-    case MIRROR: return room_spheres[6].radius;
+    case MIRROR: return room_spheres[ROOM_MIRROR].radius;
+    case GLASS: return room_spheres[ROOM_GLASS].radius;
     case CUBE: return 0.5f * (room_cube.max.x - room_cube.min.x);
-    default: return 1.0f;
+    default: return room_lamp.radius;
     }
 }
 
@@ -215,13 +240,15 @@ static void live_place(int thing, rt_vec3 middle)
     if (thing == BALL)
         room_spheres[0].center = middle;
     if (thing == MIRROR)
-        room_spheres[6].center = middle;
+        room_spheres[ROOM_MIRROR].center = middle;
+    if (thing == GLASS)
+        room_spheres[ROOM_GLASS].center = middle;
     if (thing == CUBE) {
         room_cube.min = rt_add(room_cube.min, by);
         room_cube.max = rt_add(room_cube.max, by);
     }
     if (thing == LAMP)
-        room_light.position = room_dim_light.position = middle;
+        room_light.position = room_dim_light.position = room_lamp.center = middle;
 }
 
 /* The thing under the point (x, y) of the film; 0: nothing that can be moved. */
@@ -233,14 +260,17 @@ static int live_pick(int stage, const demo_view *view, float x, float y)
     const float beside = rt_length(rt_sub(to_lamp, rt_scale(ray.direction, t)));
     rt_hit hit;
     const bool found = rt_intersect(live_scene(stage), &ray, &hit);
-    if (stage > 1 && t > 0.0f && (!found || hit.t > t) && beside < 2.0f)
+    const float size = stage >= STAGE_LAMPS ? room_lamp.radius : 2.0f;
+    if (stage > 1 && stage != STAGE_SKY && t > 0.0f && (!found || hit.t > t) &&
+        beside < size)
         return LAMP;
     if (!found)
         return 0;
-    return hit.material == &room_spheres[0].material   ? BALL
-           : hit.material == &room_spheres[6].material ? MIRROR
-           : hit.material == &room_cube.material       ? CUBE
-                                                       : 0;
+    return hit.material == &room_spheres[0].material             ? BALL
+           : hit.material == &room_spheres[ROOM_MIRROR].material ? MIRROR
+           : hit.material == &room_spheres[ROOM_GLASS].material  ? GLASS
+           : hit.material == &room_cube.material                 ? CUBE
+                                                                 : 0;
 }
 
 static float live_clamp(float x, float low, float high)
@@ -268,6 +298,81 @@ static void live_drag(int thing, const demo_view *view, float right_pixels,
     live_place(thing, middle);
 }
 
+/* What a thing has besides its place: one number, from this stage to that, wherever it stands. */
+typedef struct live_number {
+    const char *name;
+    int first, last;
+    float low, high, factor; /* for one notch of the wheel */
+    float *places[3];
+} live_number;
+
+static const live_number live_numbers[THINGS] = {
+    [BALL] = {"shininess",
+              STAGE_GLOSS,
+              STAGE_PATTERNS,
+              1,
+              100000,
+              1.4f,
+              {&gloss_surfaces[ROOM_BALL].shininess,
+               &pattern_surfaces[ROOM_BALL].shininess}},
+    [MIRROR] = {"shininess",
+                STAGE_GLOSS,
+                STAGE_PATTERNS,
+                1,
+                100000,
+                1.4f,
+                {&gloss_surfaces[ROOM_MIRROR].shininess,
+                 &pattern_surfaces[ROOM_MIRROR].shininess}},
+    [CUBE] = {"refractive index",
+              STAGE_GLASS,
+              STAGE_SKY,
+              1,
+              2.5f,
+              1.02f,
+              {&glass_surfaces[ROOM_CUBE].eta, &gloss_surfaces[ROOM_CUBE].eta}},
+    [LAMP] = {"radius", STAGE_LAMPS, STAGE_PATTERNS, 0.1f, 9, 1.1f, {&room_lamp.radius}},
+    [GLASS] = {"refractive index",
+               STAGE_GLASS,
+               STAGE_PATTERNS,
+               1,
+               2.5f,
+               1.02f,
+               {&glass_surfaces[ROOM_GLASS].eta, &gloss_surfaces[ROOM_GLASS].eta,
+                &pattern_surfaces[ROOM_GLASS].eta}},
+};
+
+static void live_set_number(int thing, float value)
+{
+    const live_number *n = &live_numbers[thing];
+    for (int i = 0; i < 3; i++)
+        if (n->places[i])
+            *n->places[i] = live_clamp(value, n->low, n->high);
+}
+
+static bool live_has_number(int stage, int thing)
+{
+    const live_number *n = &live_numbers[thing];
+    return n->name && stage >= n->first && stage <= n->last &&
+           !(thing == LAMP && stage == STAGE_SKY); /* there it is the sun */
+}
+
+static bool live_tune(int stage, int thing, float notches)
+{
+    if (!live_has_number(stage, thing))
+        return false;
+    const live_number *n = &live_numbers[thing];
+    live_set_number(thing, *n->places[0] * powf(n->factor, notches));
+    return true;
+}
+
+static void live_say(int stage, int thing, demo_text *out)
+{
+    text_add(out, "%s", live_name(thing));
+    if (live_has_number(stage, thing))
+        text_add(out, ", %s %.3g", live_numbers[thing].name,
+                 (double)*live_numbers[thing].places[0]);
+}
+
 /* -------------------------------------------------------------------------------------
  * The view: back to the first, and as C code
  * ------------------------------------------------------------------------------------- */
@@ -275,14 +380,18 @@ static void live_drag(int thing, const demo_view *view, float right_pixels,
 /* All that moves. */
 typedef struct live_state {
     rt_camera camera;
-    rt_vec3 pivot, ball, mirror, lamp;
+    rt_vec3 pivot, ball, mirror, lamp, glass;
     rt_box cube;
+    float numbers[THINGS];
 } live_state;
 
 static size_t live_save(void *to)
 {
-    const live_state now = {room_camera,         live_pivot,        live_middle(BALL),
-                            live_middle(MIRROR), live_middle(LAMP), room_cube};
+    live_state now = {
+        room_camera,       live_pivot,         live_middle(BALL), live_middle(MIRROR),
+        live_middle(LAMP), live_middle(GLASS), room_cube,         {0}};
+    for (int thing = BALL; thing < THINGS; thing++)
+        now.numbers[thing] = *live_numbers[thing].places[0];
     memcpy(to, &now, sizeof now);
     return sizeof now;
 }
@@ -297,6 +406,9 @@ static void live_load(const void *from)
     live_place(BALL, then.ball);
     live_place(MIRROR, then.mirror);
     live_place(LAMP, then.lamp);
+    live_place(GLASS, then.glass);
+    for (int thing = BALL; thing < THINGS; thing++)
+        live_set_number(thing, then.numbers[thing]);
 }
 
 static void live_reset(void)
@@ -384,9 +496,12 @@ static int live_outlines(int stage, const demo_view *view, demo_line *lines, int
     if (stage >= 3)
         live_box(&l, room_cube.min, room_cube.max);
     if (stage >= 6)
-        live_ball(&l, room_spheres[6].center, room_spheres[6].radius);
-    if (stage >= 2)
-        live_ball(&l, room_light.position, 1.0f);
+        live_ball(&l, room_spheres[ROOM_MIRROR].center, room_spheres[ROOM_MIRROR].radius);
+    if (stage >= STAGE_GLASS)
+        live_ball(&l, room_spheres[ROOM_GLASS].center, room_spheres[ROOM_GLASS].radius);
+    if (stage >= 2 && stage != STAGE_SKY)
+        live_ball(&l, room_light.position,
+                  stage >= STAGE_LAMPS ? room_lamp.radius : 1.0f);
     for (int i = 0; i < 4; i++) { /* the camera: rays through the corners of the film */
         const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height,
                                          i == 0 || i == 3 ? 0.0f : (float)view->width,
@@ -396,20 +511,36 @@ static int live_outlines(int stage, const demo_view *view, demo_line *lines, int
     return l.count;
 }
 
+/* How a ray was sent on, as a kind of line. */
+static demo_kind live_kind(rt_event event)
+{
+    switch (event) {
+    case RT_EVENT_MIRROR: return LINE_MIRROR;
+    case RT_EVENT_GLOSS: return LINE_GLOSS;
+    case RT_EVENT_REFLECTED:
+    case RT_EVENT_REFRACTED: return LINE_GLASS;
+    default: return LINE_DIFFUSE;
+    }
+}
+
+/* Where the ray meets its lamp; the sun is too far away for the plan. */
+static rt_vec3 live_lamp_met(const rt_scene *scene, const rt_vertex *v)
+{
+    const float t = rt_meet_lamp(&scene->lamps[v->lamp], &v->ray, FLT_MAX);
+    return rt_at(&v->ray, live_clamp(t, 0, 300));
+}
+
 /* What rt_trace_pixel wrote down, up to where the stage stops, as lines. */
-static void live_draw_path(const rt_path *path, live_lines *l)
+static void live_draw_path(const rt_scene *scene, const rt_path *path, live_lines *l)
 {
     for (int n = 0; n < path->vertex_count; n++) {
         const rt_vertex *v = &path->vertices[n];
-        const rt_vec3 P = v->shape < 0
+        const rt_vec3 P = v->lamp >= 0 ? live_lamp_met(scene, v)
+                          : v->shape < 0
                               ? rt_at(&v->ray, 60.0f / rt_length(v->ray.direction))
                               : v->hit.point;
         const float weight = (v->throughput.x + v->throughput.y + v->throughput.z) / 3.0f;
-        const bool mirrored = n > 0 && path->vertices[n - 1].hit.material->mirror;
-        live_line(l,
-                  n == 0     ? LINE_CAMERA
-                  : mirrored ? LINE_MIRROR
-                             : LINE_DIFFUSE,
+        live_line(l, n == 0 ? LINE_CAMERA : live_kind(path->vertices[n - 1].event),
                   weight, v->ray.origin, P);
         if (v->shape >= 0)
             live_line(l, LINE_NORMAL, 1, P, rt_add(P, rt_scale(v->hit.normal, 7.0f)));
@@ -417,7 +548,9 @@ static void live_draw_path(const rt_path *path, live_lines *l)
             const rt_shadow *s = &path->shadows[i];
             if (s->vertex != n)
                 continue;
-            const float t = s->blocker < 0 ? 1.0f : s->t;
+            const float far =
+                300.0f / rt_length(s->ray.direction); /* not up to the sun */
+            const float t = s->blocker >= 0 ? s->t : far < 1.0f ? far : 1.0f;
             live_line(l, LINE_LIT, weight, s->ray.origin, rt_at(&s->ray, t));
             if (s->blocker >= 0)
                 live_line(l, LINE_BLOCKED, 1, rt_at(&s->ray, t), rt_at(&s->ray, 1.0f));
@@ -426,21 +559,29 @@ static void live_draw_path(const rt_path *path, live_lines *l)
 }
 
 /* Two lines for each vertex, to stand beside the plan. */
-static void live_summary(const rt_path *path, demo_text *out)
+static void live_summary(const rt_scene *scene, const rt_path *path, demo_text *out)
 {
     for (int n = 0; n < path->vertex_count; n++) {
         const rt_vertex *v = &path->vertices[n];
         const rt_vec3 T = v->throughput, adds = rt_mul(T, v->light), N = v->hit.normal;
-        text_add(out, "%d %s", n, shape_name(v->shape));
+        const bool goes_on = n + 1 < path->vertex_count && scene->surfaces;
+        text_add(out, "%d %s", n,
+                 v->lamp >= 0 ? "the lamp" : shape_name(scene, v->shape));
+        if (v->lamp >= 0 && n > 0)
+            text_add(out, " by chance, weight %.2f", (double)v->weight);
         if (v->shape >= 0)
             text_add(out, ", t %.4g, N (%.2f %.2f %.2f)", (double)v->hit.t, (double)N.x,
                      (double)N.y, (double)N.z);
         for (int i = 0; i < path->shadow_count; i++)
             if (path->shadows[i].vertex == n) {
-                const int blocker = path->shadows[i].blocker;
-                text_add(out, ", lamp %s%s", blocker < 0 ? "seen" : "behind ",
-                         blocker < 0 ? "" : shape_name(blocker));
+                const rt_shadow *s = &path->shadows[i];
+                text_add(out, ", lamp %s%s", s->blocker < 0 ? "seen" : "behind ",
+                         s->blocker < 0 ? "" : shape_name(scene, s->blocker));
+                if (s->lamp >= 0 && s->blocker < 0)
+                    text_add(out, ", weight %.2f", (double)s->weight);
             }
+        if (goes_on)
+            text_add(out, "; %s", event_name(v));
         text_add(out, "\n  throughput %.3f %.3f %.3f, adds %.4f %.4f %.4f\n", (double)T.x,
                  (double)T.y, (double)T.z, (double)adds.x, (double)adds.y,
                  (double)adds.z);
@@ -455,30 +596,49 @@ static int live_path(int stage, const demo_view *view, const rt_options *options
 {
     live_lines l = {lines, most, 0};
     rt_path path = empty_path();
-    rt_options traced = *options;
+    const rt_scene *scene = live_scene(stage);
+    rt_options traced = live_options(stage, options);
     traced.bounces = stage < 6 ? 0 : view->bounces;
-    if (rt_trace_pixel(live_scene(stage), &room_camera, &traced, image, x, y, sample,
-                       &path) != RT_OK)
+    if (rt_trace_pixel(scene, &room_camera, &traced, image, x, y, sample, &path) != RT_OK)
         return 0;
     if (stage < 4)
         path.shadow_count = 0;
-    for (int n = 0; stage < 6 && n < path.vertex_count; n++)
-        if (path.vertices[n].shape == 6) /* no mirror yet: this is the cube */
-            path.vertices[n].shape = 7;
-    for (int i = 0; stage < 6 && i < path.shadow_count; i++)
-        if (path.shadows[i].blocker == 6)
-            path.shadows[i].blocker = 7;
     for (int n = 0; stage == 6 && n < path.vertex_count; n++)
         if (path.vertices[n].shape < 0 || !path.vertices[n].hit.material->mirror) {
             path.vertex_count = n + 1; /* there chapter 6 stops */
             path.value = rt_mul(path.vertices[n].throughput, path.vertices[n].light);
         }
-    live_draw_path(&path, &l);
+    live_draw_path(scene, &path, &l);
     if (summary)
-        live_summary(&path, summary);
+        live_summary(scene, &path, summary);
     if (words)
-        print_path(words, &path, sample);
+        print_path(words, scene, &path, sample);
     return l.count;
+}
+
+static rt_status live_explain(int stage, const rt_options *options, const rt_image *image,
+                              int x, int y)
+{
+    static char words[MOST_WORDS];
+    const rt_options traced = live_options(stage, options);
+    rt_path path = empty_path();
+    rt_vec3 mean = {0, 0, 0};
+    demo_text out;
+    for (int k = 0; k < options->samples; k++) {
+        const rt_status status = rt_trace_pixel(live_scene(stage), &room_camera, &traced,
+                                                image, x, y, k, &path);
+        if (status != RT_OK)
+            return status;
+        out = text_in(words, sizeof words);
+        print_path(&out, live_scene(stage), &path, k);
+        printf("%s", words);
+        mean = rt_add(mean, rt_scale(rt_sub(path.value, mean), 1.0f / (float)(k + 1)));
+    }
+    out = text_in(words, sizeof words);
+    print_vec(&out, "mean: ", mean, "");
+    printf("%s, as bytes %d, %d, %d\n", words, live_encode(stage, mean.x),
+           live_encode(stage, mean.y), live_encode(stage, mean.z));
+    return RT_OK;
 }
 
 static const demo_live live_room = {
@@ -492,9 +652,12 @@ static const demo_live live_room = {
     .pick = live_pick,
     .name = live_name,
     .drag = live_drag,
+    .tune = live_tune,
+    .say = live_say,
     .print = live_print,
     .outlines = live_outlines,
     .path = live_path,
+    .explain = live_explain,
     .save = live_save,
     .load = live_load,
 };

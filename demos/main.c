@@ -226,7 +226,8 @@ static int explain(run *r)
         printf("%s: pixel %ld,%ld of %lld x %lld, %d sample%s, %s\n", d->name, r->s.x,
                r->s.y, r->s.width, r->s.height, options.samples,
                viewer_plural(options.samples), viewer_bounces(&r->v));
-    rt_status status = d->explain(&options, &r->v.image, (int)r->s.x, (int)r->s.y);
+    rt_status status =
+        d->live->explain(d->stage, &options, &r->v.image, (int)r->s.x, (int)r->s.y);
     if (status == RT_OK && r->s.denoise)
         status = explain_denoising(r, &options);
     return status == RT_OK || failed(r, status) ? DONE : FAILED;
@@ -411,6 +412,16 @@ __attribute__((constructor, target("arch=x86-64"))) static void check_machine(vo
 }
 #endif
 
+/* The picture stays until the program ends. */
+static bool wrap_texture(const demo *d, const char *path)
+{
+    int width, height;
+    const rt_vec3 *pixels = files_load(d->name, path, &width, &height);
+    if (pixels)
+        d->texture(pixels, width, height);
+    return pixels != NULL;
+}
+
 int demo_main(int argc, char **argv, const demo *d)
 {
     char out[64];
@@ -433,6 +444,8 @@ int demo_main(int argc, char **argv, const demo *d)
     }
     if (!r.s.explain && !files_can_write(d->name, r.s.out))
         return FAILED;
+    if (r.s.texture && !wrap_texture(d, r.s.texture))
+        return FAILED;
     say_what_is_not(&r);
     if (r.s.samples == 0 && r.s.error == 0.0f && r.s.seconds == 0.0f)
         r.s.samples = d->samples;
@@ -443,6 +456,7 @@ int demo_main(int argc, char **argv, const demo *d)
     r.bytes = malloc((size_t)r.s.width * (size_t)r.s.height * 3);
     if (r.bytes &&
         viewer_open(&r.v, d, (int)r.s.width, (int)r.s.height, &options, r.s.denoise)) {
+        r.v.exposure = r.v.first_exposure = r.s.exposure;
         result = r.s.explain ? explain(&r) : show(&r);
         viewer_close(&r.v);
     } else {

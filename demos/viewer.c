@@ -72,13 +72,6 @@ static void forget(rt_image *image)
     rt_image_clear(image);
 }
 
-/* The stage in which the demo's own function stands: 5 for demo05, 7 from demo07 on. */
-static int own_stage(const viewer *v)
-{
-    const int chapter = atoi(v->d->name + strcspn(v->d->name, "0123456789"));
-    return chapter >= 1 && chapter < 7 ? chapter : 7;
-}
-
 static int wanted_samples(const viewer *v)
 {
     return v->options.samples > 0 ? v->options.samples : v->d->samples;
@@ -94,7 +87,7 @@ bool viewer_open(viewer *v, const demo *d, int width, int height,
     v->denoise = v->denoise_first = denoise;
     v->image.width = v->other.width = v->draft.width = width;
     v->image.height = v->other.height = v->draft.height = height;
-    v->stage = own_stage(v);
+    v->stage = v->d->stage;
     v->samples = wanted_samples(v);
     v->comparison = denoise ? NOISY : BEFORE;
     v->shrink = 2;
@@ -176,7 +169,7 @@ rt_status viewer_render(viewer *v, const rt_options *options)
     same.half = new_pixels(image);
     const bool good = same.pixels && same.half;
     const rt_status looked =
-        good ? v->d->live->render(7, &v->view, &again, &same) : RT_NO_MEMORY;
+        good ? v->d->live->render(v->d->stage, &v->view, &again, &same) : RT_NO_MEMORY;
     free(same.pixels);
     free(same.half);
     return looked == RT_OK ? status : looked;
@@ -233,14 +226,14 @@ float viewer_clean_error(viewer *v)
 /* Is noise taken out of the picture that is seen? */
 bool viewer_is_denoised(const viewer *v)
 {
-    return v->denoise && v->d->live && v->stage == 7 && !v->hold;
+    return v->denoise && v->d->live && v->stage >= VIEWER_INDIRECT && !v->hold;
 }
 
 /* A demo's own pixels have no guides: where they are wanted, rt.h renders. */
 static bool is_own(const viewer *v, int stage)
 {
-    return !v->d->live ||
-           (stage == own_stage(v) && !(v->d->pixel && stage == 7 && v->denoise));
+    return !v->d->live || (stage == v->d->stage &&
+                           !(v->d->pixel && stage >= VIEWER_INDIRECT && v->denoise));
 }
 
 /* Is another picture rendered, to compare with? Noise has only to be left in. */
@@ -251,7 +244,7 @@ bool viewer_shows_other(const viewer *v)
 
 bool viewer_has_lanes(const viewer *v)
 {
-    return v->stage == 7 && !(v->d->pixel && is_own(v, 7));
+    return v->stage >= VIEWER_INDIRECT && !(v->d->pixel && is_own(v, v->stage));
 }
 
 static int stage_of(const viewer *v, bool other)
@@ -281,14 +274,15 @@ void viewer_encode(const viewer *v, bool other, const rt_image *image, int chann
 {
     const rt_vec3 *pixels = image->pixels;
     const int count = (int)pixel_count(image), stage = stage_of(v, other);
-    const float gamma = v->gamma;
+    const float gamma = v->gamma, brighter = exp2f(v->exposure);
     const bool own = is_own(v, stage);
 #ifdef _OPENMP
     const int threads = rt_thread_count(v->options.threads);
 #pragma omp parallel for num_threads(threads)
 #endif
     for (int i = 0; i < count; i++) {
-        const float rgb[3] = {pixels[i].x, pixels[i].y, pixels[i].z};
+        const rt_vec3 light = rt_scale(pixels[i], brighter);
+        const float rgb[3] = {light.x, light.y, light.z};
         unsigned char *to = bytes + (size_t)i * (size_t)channels;
         for (int k = 0; k < 3; k++)
             to[k] = gamma > 0.0f ? rt_encode(rgb[k], (double)gamma)
@@ -384,8 +378,16 @@ void viewer_wheel(viewer *v, float notches)
 {
     if (!v->d->live)
         return;
-    v->d->live->zoom(powf(0.9f, notches));
+    const int thing = v->d->live->pick(v->stage, &v->view, v->mouse_x, v->mouse_y);
+    if (thing == 0 || !v->d->live->tune(v->stage, thing, notches))
+        v->d->live->zoom(powf(0.9f, notches));
     change(v);
+}
+
+void viewer_tune(viewer *v, int thing, float notches)
+{
+    if (v->d->live->tune(v->stage, thing, notches))
+        change(v);
 }
 
 void viewer_set_samples(viewer *v, int samples)
@@ -396,8 +398,14 @@ void viewer_set_samples(viewer *v, int samples)
 
 void viewer_set_stage(viewer *v, int stage)
 {
-    v->stage = stage;
+    v->stage = stage < 1 ? 1 : stage < VIEWER_STAGES ? stage : VIEWER_STAGES;
     change(v);
+}
+
+void viewer_set_exposure(viewer *v, float stops)
+{
+    v->exposure = stops < -20.0f ? -20.0f : stops < 20.0f ? stops : 20.0f;
+    v->redraw = true;
 }
 
 void viewer_set_bounces(viewer *v, int bounces)
@@ -419,9 +427,10 @@ static void reset(viewer *v)
     v->options = v->first;
     v->view.bounces = v->options.bounces;
     v->denoise = v->denoise_first;
-    v->stage = own_stage(v);
+    v->stage = v->d->stage;
     v->samples = wanted_samples(v);
     v->gamma = 0.0f;
+    v->exposure = v->first_exposure;
     v->glass = v->help = v->side = false;
     v->comparison = v->denoise ? NOISY : BEFORE;
     change(v);
@@ -429,7 +438,7 @@ static void reset(viewer *v)
 
 static void toggle_denoising(viewer *v)
 {
-    if (v->stage != 7)
+    if (v->stage < VIEWER_INDIRECT)
         return;
     v->denoise = !v->denoise;
     v->comparison = v->denoise ? NOISY : BEFORE;
@@ -448,6 +457,8 @@ static bool handle_common_key(viewer *v, int key, bool repeated)
     case 's': v->save = v->save || !repeated; return true;
     case 'z': v->glass = !v->glass; return true;
     case 'g': v->gamma = v->gamma > 0.0f ? 0.0f : 1.0f; return true;
+    case 'e': viewer_set_exposure(v, v->exposure + 0.5f); return true;
+    case 'w': viewer_set_exposure(v, v->exposure - 0.5f); return true;
     case 'h': v->help = !v->help; return true;
     case '+':
     case '=': viewer_set_samples(v, 2 * v->samples); return true;
@@ -499,11 +510,13 @@ void viewer_key(viewer *v, int key, bool repeated)
     }
     if (handle_camera_key(v, key))
         return;
-    if (key >= '1' && key <= '7') {
-        viewer_set_stage(v, key - '0');
+    if (key >= '0' && key <= '9') { /* 0 is 10 */
+        viewer_set_stage(v, key > '0' ? key - '0' : 10);
         return;
     }
     switch (key) {
+    case '.': viewer_set_stage(v, v->stage + 1); break;
+    case ',': viewer_set_stage(v, v->stage - 1); break;
     case 'd': toggle_denoising(v); break;
     case 'v': v->side = !v->side; break;
     case 'i': v->inspect = false; break;
@@ -587,7 +600,7 @@ void viewer_draft(viewer *v)
     const int stage = stage_of(v, v->hold);
     if (clean)
         v->d->live->render(stage, &view, &options, image);
-    else if (is_own(v, stage) && v->d->pixel && stage < 7)
+    else if (is_own(v, stage) && v->d->pixel && stage < VIEWER_INDIRECT)
         render_own(v, &view, &options, image);
     else
         v->d->live->draft(stage, &view, &options, image);
@@ -663,13 +676,26 @@ const char *viewer_comparison_name(viewer_comparison comparison)
     return names[comparison];
 }
 
+int viewer_chapter(int stage)
+{
+    return stage <= VIEWER_INDIRECT ? stage : stage + 3;
+}
+
+const char *viewer_stage_name(int stage)
+{
+    static const char *const names[VIEWER_STAGES] = {
+        "sphere",         "walls", "cube",  "shadows", "gamma",        "mirror",
+        "indirect light", "glass", "lamps", "gloss",   "lens and sky", "patterns"};
+    return names[stage - 1];
+}
+
 void viewer_say_stage(const viewer *v, demo_text *out)
 {
-    static const char *const names[] = {"",        "sphere", "walls",  "cube",
-                                        "shadows", "gamma",  "mirror", "indirect light"};
     if (v->d->live)
-        text_add(out, "%d %s%s, ", v->stage, names[v->stage],
+        text_add(out, "%d %s%s, ", viewer_chapter(v->stage), viewer_stage_name(v->stage),
                  is_own(v, v->stage) ? " (the demo's)" : "");
+    if (v->exposure != 0.0f)
+        text_add(out, "exposure %+g, ", (double)v->exposure);
     if (v->hold)
         text_add(out, "held: %s, ", viewer_comparison_name(v->comparison));
 }
@@ -724,8 +750,8 @@ void viewer_say_pixel(const viewer *v, const rt_image *shown, const unsigned cha
 
 const char *viewer_kind_name(demo_kind kind)
 {
-    static const char *const names[] = {"",       "camera", "matt",     "mirror",
-                                        "normal", "lamp",   "in shadow"};
+    static const char *const names[LINE_KINDS] = {
+        "", "camera", "matt", "mirror", "normal", "lamp", "in shadow", "gloss", "glass"};
     return names[kind];
 }
 
@@ -775,8 +801,8 @@ int viewer_plan(const viewer *v, float width, float height,
                          0.5f * (height - scale * (low[1] + high[1]))};
     for (int i = 0; i < count; i++) {
         const demo_line *l = &room[i];
-        const bool path = l->kind == LINE_CAMERA || l->kind == LINE_DIFFUSE ||
-                          l->kind == LINE_MIRROR || l->kind == LINE_LIT;
+        const bool path =
+            l->kind != LINE_ROOM && l->kind != LINE_NORMAL && l->kind != LINE_BLOCKED;
         float from[2], to[2];
         flatten(v->side, l->from, from);
         flatten(v->side, l->to, to);

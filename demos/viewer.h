@@ -7,6 +7,9 @@
 
 #include "demo.h"
 
+/* The pictures: chapter 1 to 7, then those of part two, 11 to 15. */
+enum { VIEWER_INDIRECT = 7, VIEWER_STAGES = 12 };
+
 /* What to compare with. */
 typedef enum viewer_comparison {
     BEFORE, /* the chapter before */
@@ -43,9 +46,11 @@ typedef struct viewer {
     rt_image clean;    /* without noise, of so many samples; none: not yet there */
     float clean_error; /* its estimated error; below 0: not yet known */
 
-    int stage;   /* 1 to 7 */
+    int stage;   /* 1 to VIEWER_STAGES */
     float gamma; /* of the bytes; 0: as the chapter has it */
-    int samples; /* that the picture is to have */
+    float first_exposure;
+    float exposure; /* in stops: light counts 2^exposure times before it becomes bytes */
+    int samples;    /* that the picture is to have */
     viewer_comparison comparison;
     bool hold;              /* the other picture is shown */
     bool inspect, side;     /* a path is shown, from the side and not from above */
@@ -97,9 +102,12 @@ void viewer_key_up(viewer *v, int key);
 void viewer_set_stage(viewer *v, int stage);
 void viewer_set_samples(viewer *v, int samples);
 void viewer_set_bounces(viewer *v, int bounces);
+void viewer_set_exposure(viewer *v, float stops);
 void viewer_inspect(viewer *v, int x, int y);
 /* Move a thing, or 0, the camera, by one step. */
 void viewer_nudge(viewer *v, int thing, float right, float up, bool over_the_floor);
+/* Its gloss, size or whatever it has: more or less of it. */
+void viewer_tune(viewer *v, int thing, float notches);
 
 /* ---- what is to be done ------------------------------------------------------------- */
 
@@ -132,6 +140,8 @@ void viewer_say_progress(viewer *v, const rt_image *shown, float error, double n
                          demo_text *out);
 /* How many samples, and, where it can be estimated, the error. */
 void viewer_say_samples(const rt_image *image, float error, demo_text *out);
+int viewer_chapter(int stage);               /* which chapter's picture it is */
+const char *viewer_stage_name(int stage);    /* "shadows" */
 const char *viewer_bounces(const viewer *v); /* "5 bounces"; until the next call */
 const char *viewer_comparison_name(viewer_comparison comparison);
 /* What stage it is, in words: "4 shadows (the demo's), held: one sample". */

@@ -17,15 +17,18 @@ static const char *const window_help[] = {
     "drag        the ball, the cube, the mirror, the lamp; elsewhere: go round",
     "  + Shift   over the floor and not up",
     "right drag  the camera sideways;  wheel, PgUp, PgDn: nearer, farther",
+    "  wheel     on the lamp its size, on gloss its sharpness, on glass its index",
     "arrows      go round (left, right: the sample, while a ray is shown)",
-    "1 ... 7     the same view in chapter 1 ... 7",
+    "1 ... 7     the same view in chapter 1 ... 7;  8 glass, 9 lamps, 0 gloss;",
+    ",  .         one picture back, one on: also to lens and sky, and patterns",
     "b (hold)    the other picture; o: which one that is",
     "click       show the ray of this pixel; i: and no more",
     "v           the plan from above, or from the side",
     "z           a magnifying glass, with the numbers of the pixel",
     "+  -        samples        ]  [   bounces",
     "d           without noise (chapter 7);  b (hold): as it was",
-    "g  gamma    l  numbers     p  packets     t  threads",
+    "g  gamma    w  e  exposure, down and up",
+    "l  numbers  p  packets     t  threads",
     "r           all as at first",
     "s           save the picture, and print the camera as C code",
     "h           these lines            q, Esc   the end",
@@ -122,12 +125,14 @@ static const SDL_Color line_colours[] = {/* as demo_kind */
                                          {170, 170, 170, 255}, {33, 113, 181, 255},
                                          {190, 30, 140, 255},  {0, 140, 130, 255},
                                          {90, 160, 60, 255},   {230, 170, 0, 255},
-                                         {30, 30, 30, 255}};
+                                         {30, 30, 30, 255},    {230, 110, 40, 255},
+                                         {120, 90, 220, 255}};
 
-static void draw_legend(const window *w, SDL_Rect plan)
+static void draw_legend(const window *w, const viewer *v, SDL_Rect plan)
 {
     int x = plan.x + 6;
-    for (int kind = LINE_CAMERA; kind <= LINE_BLOCKED; kind++) {
+    const int kinds = v->stage > VIEWER_INDIRECT ? LINE_KINDS : LINE_GLOSS;
+    for (int kind = LINE_CAMERA; kind < kinds; kind++) {
         const SDL_Color c = line_colours[kind];
         const char *name = viewer_kind_name((demo_kind)kind);
         const int size = text_height(w) - 3;
@@ -147,7 +152,7 @@ static void draw_plan(const window *w, const viewer *v, SDL_Rect plan, SDL_Rect 
     SDL_SetRenderDrawColor(w->renderer, 250, 250, 250, 255);
     SDL_RenderFillRect(w->renderer, &plan);
     SDL_RenderFillRect(w->renderer, &at);
-    draw_legend(w, plan);
+    draw_legend(w, v, plan);
     plan.y += 2 * text_height(w);
     plan.h -= 2 * text_height(w);
     const int count = viewer_plan(v, (float)plan.w, (float)plan.h, lines, &summary);
@@ -294,7 +299,7 @@ bool window_is_due(const window *w)
  * ------------------------------------------------------------------------------------- */
 
 /* The viewer's name of a key; 0: none. Where digits need Shift, as on a French keyboard, the keys
- * 1 to 7 count by their place. */
+ * of the row count by their place. */
 static int key_of(SDL_Keysym key)
 {
     switch (key.sym) {
@@ -308,10 +313,10 @@ static int key_of(SDL_Keysym key)
     case SDLK_KP_MINUS: return '-';
     default: break;
     }
-    const bool row = key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_7;
+    const bool row = key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_0;
     const bool sign = key.sym == '-' || key.sym == '=' || key.sym == '+'; /* also there */
     if (row && (!sign || (key.mod & KMOD_SHIFT) != 0))
-        return '1' + (int)(key.scancode - SDL_SCANCODE_1);
+        return '0' + (int)(key.scancode - SDL_SCANCODE_1 + 1) % 10;
     return key.sym > 0 && key.sym < 128 ? (int)key.sym : 0;
 }
 

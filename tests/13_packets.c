@@ -818,7 +818,12 @@ static void test_lights_next_to_small_spheres_seen_from_afar(void **state)
         const rt_light light = {
             rt_add(sphere.center, rt_scale(out, 3.0f + powf(10, (float)(i % 5 - 4)))),
             {4, 4, 4}};
-        const rt_scene scene = {&sphere, 1, &box, 1, &light, 1, {0, 0, 0}, NULL};
+        const rt_scene scene = {.spheres = &sphere,
+                                .sphere_count = 1,
+                                .boxes = &box,
+                                .box_count = 1,
+                                .lights = &light,
+                                .light_count = 1};
         const rt_camera camera = {{2, 8, -4}, {0.7f, -0.1f, 0.7f}, {0, 1, 0}, 90};
         const picture p = picture_of(&scene, &camera);
         compare(&p, "light next to a sphere", i);
@@ -830,7 +835,8 @@ static void test_the_room_is_asked_shape_by_shape(void **state)
 {
     (void)state;
 #if RT__LANES > 1
-    assert_true(rt__are_few(&scene_indirect, &room_camera));
+    const rt_lens pinhole = {0, 0};
+    assert_true(rt__are_few(&scene_indirect, &room_camera, &pinhole));
 #endif
 }
 

@@ -1187,7 +1187,10 @@ static void check_traps(const rt_scene *scene, const rt_camera *camera)
     static rt_vertex vertices[100];
     static rt_shadow shadows[100];
     for (int i = 0; i < 32 * 24; i += 5) {
-        rt_path path = {vertices, 100, 0, shadows, 100, 0, {0, 0, 0}, 0, NULL, 0};
+        rt_path path = {.vertices = vertices,
+                        .max_vertices = 100,
+                        .shadows = shadows,
+                        .max_shadows = 100};
         rt_trace_pixel(scene, camera, &options, &image, i % 32, i / 32, 0, &path);
     }
     rt_bvh bvh;

@@ -30,6 +30,7 @@ static const demo the_demo = {.name = "demo07",
                               .title = "a test",
                               .pixel = pixel,
                               .live = &live_room,
+                              .stage = 7,
                               .encode = demo_gamma,
                               .samples = 4,
                               .bounces = 5};

@@ -13,6 +13,24 @@ static void describe(const char *name, const rt_scene *scene)
             printf(", one of the spheres a mirror");
     for (int i = 0; i < scene->light_count; i++)
         printf(", a lamp of %g W/sr", scene->lights[i].intensity.x);
+    for (int i = 0; scene->surfaces && i < scene->sphere_count; i++) {
+        const rt_surface *s = &scene->surfaces[i];
+        if (s->eta > 0)
+            printf(", one of glass");
+        if (s->shininess > 0)
+            printf(", one with a gloss of %g", s->shininess);
+        if (s->pattern)
+            printf(", one with a pattern");
+    }
+    if (scene->surfaces && scene->surfaces[ROOM_CUBE].eta > 0)
+        printf(", the box of amber");
+    if (scene->surfaces && scene->surfaces[ROOM_CUBE].pattern)
+        printf(", the box with a pattern");
+    for (int i = 0; i < scene->lamp_count; i++)
+        printf(", a lamp of radius %g and %g W/sr", scene->lamps[i].radius,
+               scene->lamps[i].intensity.x);
+    if (scene->sky)
+        printf(", a sky");
     printf("\n");
 }
 
@@ -23,4 +41,9 @@ int main(void)
     describe("cube", &scene_cube);
     describe("mirror", &scene_mirror);
     describe("indirect", &scene_indirect);
+    describe("glass", &scene_glass);
+    describe("lamps", &scene_lamps);
+    describe("gloss", &scene_gloss);
+    describe("sky", &scene_sky);
+    describe("patterns", &scene_patterns);
 }

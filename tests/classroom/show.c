@@ -3,10 +3,32 @@
 
 #include "../../demos/live.h"
 
+/* The picture in which the routine can be seen. */
+#ifndef STAGE
+#if defined(rt_fresnel) || defined(rt_refract)
+#define STAGE STAGE_GLASS
+#elif defined(rt_sample_lamp) || defined(rt_lamp_density) || defined(rt_mis)
+#define STAGE STAGE_LAMPS
+#elif defined(rt_sample_gloss) || defined(rt_gloss)
+#define STAGE STAGE_GLOSS
+#elif defined(rt_lens_ray)
+#define STAGE STAGE_SKY
+#else
+#define STAGE STAGE_INDIRECT
+#endif
+#endif
+
 static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)
 {
-    const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
-    return rt_radiance(&scene_indirect, &ray, view->bounces, rng);
+    rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
+    if (STAGE == STAGE_SKY) {
+        const float r1 = rt_random(rng);
+        const float r2 = rt_random(rng);
+        ray = rt_lens_ray(&room_camera, &room_lens, &ray, r1, r2);
+    }
+    return STAGE == STAGE_INDIRECT
+               ? rt_radiance(&scene_indirect, &ray, view->bounces, rng)
+               : rt_radiance_mis(live_scene(STAGE), &ray, view->bounces, rng);
 }
 
 static rt_status finish(const rt_image *image, int threads, rt_image *result)
@@ -16,7 +38,7 @@ static rt_status finish(const rt_image *image, int threads, rt_image *result)
 
 static unsigned char encode(float value)
 {
-    return rt_encode(value, 2.2);
+    return live_encode(STAGE, value);
 }
 
 int main(int argc, char **argv)
@@ -26,9 +48,9 @@ int main(int argc, char **argv)
                              .title = "Your own routine",
                              .pixel = pixel,
                              .live = &live_room,
+                             .stage = STAGE,
                              .finish = finish,
-                             .explain = explain_indirect,
                              .encode = encode,
                              .samples = 16,
-                             .bounces = 5});
+                             .bounces = STAGE == STAGE_INDIRECT ? 5 : 8});
 }

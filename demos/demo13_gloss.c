@@ -1,0 +1,82 @@
+/* Demo 13: gloss.
+ *
+ * Before  a surface is matt, or a perfect mirror.
+ * Now     there is all between: a surface of tiny mirrors that do not all face the same way.
+ *         The ball at the back becomes brushed metal, the red one gets a coat of lacquer.
+ * Run     make demo13                                      (or ARGS="--samples 64") */
+#define rt_sample_gloss sample_gloss
+#define rt_gloss gloss
+#include "live.h"
+
+/* A direction of length 1. */
+static rt_vec3 unit(rt_vec3 v)
+{
+    const float dd = rt_dot(v, v);
+    return rt_scale(v, dd > 1e-20f ? 1 / sqrtf(dd) : 0);
+}
+
+static float roughness_squared(float shininess)
+{
+    return 2 / (shininess + 2);
+}
+
+/* What hides facets from an eye at this cosine to the normal: 2 cosine / this is left. */
+static float hidden(float cosine, float a2)
+{
+    return cosine + sqrtf(a2 + (1 - a2) * cosine * cosine);
+}
+
+/* The light from L that facets send to the eye, and how likely sample_gloss chooses L. */
+static float gloss(rt_vec3 N, rt_vec3 eye, rt_vec3 L, float shininess, float *density)
+{
+    const float a2 = roughness_squared(shininess);
+    const float to_eye = rt_dot(N, eye), to_light = rt_dot(N, L);
+    const rt_vec3 h = unit(rt_add(eye, L)); /* the facets that send it face this way */
+    const rt_vec3 across = rt_cross(N, h);
+    const float up = rt_dot(N, h), k = rt_dot(across, across) + a2 * up * up;
+    *density = 0;
+    if (!(to_eye > 0 && to_light > 0 && up > 0))
+        return 0;
+    *density = a2 / (3.14159265359f * k * k) / (2 * hidden(to_eye, a2));
+    return *density * (2 * to_light / hidden(to_light, a2));
+}
+
+/* The eye's ray, reflected by a facet that the eye sees. */
+static rt_vec3 sample_gloss(rt_vec3 N, rt_vec3 eye, float shininess, float r1, float r2)
+{
+    const float a = sqrtf(roughness_squared(shininess));
+    rt_vec3 x, y;
+    rt_basis(N, &x, &y);
+    /* stretched by 1/a along the surface, the facets are those of a hemisphere */
+    const rt_vec3 v =
+        unit(rt_vec(a * rt_dot(x, eye), a * rt_dot(y, eye), rt_dot(N, eye)));
+    float sine, cosine;
+    rt_sincos(r1, &sine, &cosine);
+    const float z = (1 - r2) * (1 + v.z) - v.z, zz = 1 - z * z;
+    const float r = sqrtf(zz > 0 ? zz : 0);
+    const rt_vec3 h = rt_vec(a * (r * cosine + v.x), a * (r * sine + v.y), z + v.z);
+    const rt_vec3 facet =
+        unit(rt_add(rt_add(rt_scale(x, h.x), rt_scale(y, h.y)), rt_scale(N, h.z)));
+    return rt_sub(rt_scale(facet, 2 * rt_dot(eye, facet)), eye);
+}
+
+static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)
+{
+    const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
+    return rt_radiance_mis(&scene_gloss, &ray, view->bounces, rng);
+}
+
+int main(int argc, char **argv)
+{
+    return demo_main(argc, argv,
+                     &(demo){.name = "demo13",
+                             .title = "13. Gloss",
+                             .pixel = pixel,
+                             .live = &live_room,
+                             .stage = 10,
+                             .encode = demo_gamma,
+                             .samples = 16,
+                             .bounces = 8,
+                             .sobol = true,
+                             .denoise = true});
+}
