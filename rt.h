@@ -6171,7 +6171,10 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
     rt__finishes f;
-    f.albedo = hits->albedo;
+    f.metal = lanes & rt__less(zero, hits->kind);
+    const rt__f most = rt__fmax(hits->albedo.x, rt__fmax(hits->albedo.y, hits->albedo.z));
+    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
+                           hits->albedo);
     f.eta = f.shininess = zero;
     if (scene->surfaces) {
         f.eta = rt__of_surface(job, job->table->eta, offsetof(rt_surface, eta),
@@ -6181,13 +6184,9 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
         if (job->table->patterns)
             rt__patterns(scene, hits, rt__bits(lanes), &f.albedo);
     }
-    f.metal = lanes & rt__less(zero, hits->kind);
     f.shiny = lanes & rt__less(zero, f.shininess);
     f.glass = lanes & rt__less(zero, f.eta);
     f.aims = lanes & rt__no(f.glass | (f.metal & rt__no(f.shiny)));
-    const rt__f most = rt__fmax(f.albedo.x, rt__fmax(f.albedo.y, f.albedo.z));
-    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
-                           f.albedo);
     return f;
 }
 
@@ -6310,6 +6309,10 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
         const rt__f dd = rt__dot(to_light, to_light);
         rt__m counts =
             lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, position));
+        if (scene->lamp_count > 0)
+            counts &= rt__same(rt__nearest_lamps(scene, &hits->point, &to_light, counts,
+                                                 rt__all(1.0f), -1),
+                               (rt__i)zero - 1);
         const rt__f part = rt__lambert(toward, dd, &counts);
         rt__f3 light = rt__scale(rt__mul(f->albedo, intensity), part);
         if (rt__any(f->shiny & counts)) {
