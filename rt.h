@@ -2747,7 +2747,8 @@ typedef struct rt_shadow {
     int lamp;          /* this one; else -1 */
     rt_ray ray;        /* from the point, to the light at t = 1 */
     float cosine, dd;  /* <N,L> and d^2 */
-    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen */
+    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen (if
+                    no lamp with a size hides it: then light_sent is black) */
     float t;
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
     float weight;       /* of a lamp, already in light_sent: see rt_mis */
@@ -2937,6 +2938,12 @@ static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, in
         v->event = RT_EVENT_LAMP;
         v->shape = -1;
         memset(&v->hit, 0, sizeof v->hit);
+    } else if (v->shape >= 0) { /* in case that it ends here: what the surface is */
+        const rt_surface *surface = rt_surface_of(scene, &v->hit);
+        v->event = surface->eta > 0.0f         ? RT_EVENT_REFRACTED
+                   : !v->hit.material->mirror  ? RT_EVENT_MATT
+                   : surface->shininess > 0.0f ? RT_EVENT_GLOSS
+                                               : RT_EVENT_MIRROR;
     }
 }
 
@@ -6186,7 +6193,10 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
     rt__finishes f;
-    f.albedo = hits->albedo;
+    f.metal = lanes & rt__less(zero, hits->kind);
+    const rt__f most = rt__fmax(hits->albedo.x, rt__fmax(hits->albedo.y, hits->albedo.z));
+    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
+                           hits->albedo);
     f.eta = f.shininess = zero;
     if (scene->surfaces) {
         f.eta = rt__of_surface(job, job->table->eta, offsetof(rt_surface, eta),
@@ -6196,13 +6206,9 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
         if (job->table->patterns)
             rt__patterns(scene, hits, rt__bits(lanes), &f.albedo);
     }
-    f.metal = lanes & rt__less(zero, hits->kind);
     f.shiny = lanes & rt__less(zero, f.shininess);
     f.glass = lanes & rt__less(zero, f.eta);
     f.aims = lanes & rt__no(f.glass | (f.metal & rt__no(f.shiny)));
-    const rt__f most = rt__fmax(f.albedo.x, rt__fmax(f.albedo.y, f.albedo.z));
-    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
-                           f.albedo);
     return f;
 }
 
@@ -6325,6 +6331,10 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
         const rt__f dd = rt__dot(to_light, to_light);
         rt__m counts =
             lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, position));
+        if (scene->lamp_count > 0)
+            counts &= rt__same(rt__nearest_lamps(scene, &hits->point, &to_light, counts,
+                                                 rt__all(1.0f), -1),
+                               (rt__i)zero - 1);
         const rt__f part = rt__lambert(toward, dd, &counts);
         rt__f3 light = rt__scale(rt__mul(f->albedo, intensity), part);
         if (rt__any(f->shiny & counts)) {
