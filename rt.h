@@ -2011,10 +2011,10 @@ static inline float rt_mis(float density, float other)
  *
  *     D(h) = a^2 / (pi (<N,h>^2 (a^2 - 1) + 1)^2),        a^2 = 2 / (shininess + 2).
  *
- * The name shininess, and what it means, are those of the exponent in B. Phong,
- * "Illumination for computer generated pictures", 1975: near its middle the lobe
- * cos^shininess is as wide. Why not Phong's lobe itself: at 60 degrees half of the light
- * is gone, whatever the exponent. See docs/13-gloss.md.
+ * The name shininess is that of the exponent in B. Phong, "Illumination for computer
+ * generated pictures", 1975. Along N there are as many facets here as in the lobe
+ * (shininess + 2) / (2 pi) <N,h>^shininess. Why not Phong's lobe itself: at 60 degrees
+ * half of the light is gone, whatever the exponent. See docs/13-gloss.md.
  * ==================================================================================== */
 
 static inline float rt__roughness2(float shininess)
@@ -2041,11 +2041,10 @@ static inline float rt__hidden(float cosine, float a2)
  * its share of the view. r1, r2 are uniform in (0, 1). It may point below the surface;
  * then the light goes nowhere.
  *
- * The surface is stretched by 1/a along its plane, so that the facets become a
- * hemisphere; there the wanted normal is halfway between the eye and a uniform direction
- * of a cap. J. Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG
- * 2023, after E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4),
- * 2018. */
+ * The surface is stretched by 1/a along N, so that the facets become a hemisphere; there
+ * the wanted normal is halfway between the eye and a uniform direction of a cap. J.
+ * Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG 2023, after
+ * E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4), 2018. */
 #ifndef rt_sample_gloss
 static inline rt_vec3 rt_sample_gloss(rt_vec3 normal, rt_vec3 to_eye, float shininess,
                                       float r1, float r2)
