@@ -2349,16 +2349,17 @@ static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
         const float r1 = rt_random(rng);
         const float r2 = rt_random(rng);
         const rt_vec3 end = rt_sample_lamp(lamp, hit->point, r1, r2);
-        const rt_vec3 toward = rt__unit(rt_sub(end, hit->point));
-        const float aimed = rt_lamp_density(lamp, hit->point, toward);
-        float density;
-        const rt_vec3 f = rt_scatter(finish, hit->normal, to_eye, toward, &density);
-        if (!(aimed > 0.0f && density > 0.0f))
-            continue; /* from within the lamp, or behind the surface */
-        rng->rays++;
         rt_ray way; /* on which no other lamp may stand, either */
         way.origin = hit->point;
         way.direction = rt_sub(end, hit->point);
+        const rt_vec3 toward = rt__unit(way.direction);
+        const float aimed = rt_lamp_density(lamp, hit->point, toward);
+        float density;
+        const rt_vec3 f = rt_scatter(finish, hit->normal, to_eye, toward, &density);
+        if (!(aimed > 0.0f && density > 0.0f &&
+              rt_dot(hit->normal, way.direction) > 0.0f))
+            continue; /* from within the lamp, or behind the surface */
+        rng->rays++;
         const bool seen = rt_visible(scene, hit->point, hit->normal, end) &&
                           rt__nearest_lamp(scene, &way, 1.0f, i) < 0;
         const float weight = rt_mis(aimed, density);
@@ -2745,7 +2746,8 @@ typedef struct rt_shadow {
     int lamp;          /* this one; else -1 */
     rt_ray ray;        /* from the point, to the light at t = 1 */
     float cosine, dd;  /* <N,L> and d^2 */
-    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen */
+    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen (if
+                    no lamp with a size hides it: then light_sent is black) */
     float t;
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
     float weight;       /* of a lamp, already in light_sent: see rt_mis */
@@ -2935,6 +2937,12 @@ static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, in
         v->event = RT_EVENT_LAMP;
         v->shape = -1;
         memset(&v->hit, 0, sizeof v->hit);
+    } else if (v->shape >= 0) { /* in case that it ends here: what the surface is */
+        const rt_surface *surface = rt_surface_of(scene, &v->hit);
+        v->event = surface->eta > 0.0f         ? RT_EVENT_REFRACTED
+                   : !v->hit.material->mirror  ? RT_EVENT_MATT
+                   : surface->shininess > 0.0f ? RT_EVENT_GLOSS
+                                               : RT_EVENT_MIRROR;
     }
 }
 
@@ -5674,7 +5682,8 @@ typedef struct rt__packet {
     rt__numbers numbers;
     rt__hits hits;
     rt__place place;
-    rt__m looking; /* whose guide is wanted, and not there yet */
+    rt__m looking; /* whose guide is wanted, and not there yet; */
+    rt__m alone;   /* or not to be found on this path */
     rt__f3 guide_normal, guide_point, guide_albedo, guide_direct;
     rt__f3 from;   /* part two: the point that the ray has left, and the density */
     rt__f density; /* of its direction, 0: there was no choice */
@@ -5698,32 +5707,46 @@ RT__INLINE void rt__set_out(const rt__job *job, rt__packet *p, rt__m below)
                  rt__iselect(below, nowhere, p->hits.left));
 }
 
-/* rt_first_look, as part of the path: it ends in lanes that missed, or hit no mirror, or
- * have looked far enough. */
+/* The first look of these lanes ends at a light that they see, ... */
+RT__INLINE void rt__see_light(rt__packet *p, rt__m lanes, rt__f3 direct)
+{
+    lanes &= p->looking;
+    p->looking &= rt__no(lanes);
+    p->guide_direct = rt__vselect(lanes, direct, p->guide_direct);
+}
+
+/* ... or at a surface. */
+RT__INLINE void rt__see_surface(rt__packet *p, rt__m lanes, rt__f3 albedo, rt__f3 direct)
+{
+    lanes &= p->looking;
+    p->guide_normal = rt__vselect(lanes, p->hits.normal, p->guide_normal);
+    p->guide_point = rt__vselect(lanes, p->hits.point, p->guide_point);
+    p->guide_albedo = rt__vselect(lanes, rt__mul(p->throughput, albedo), p->guide_albedo);
+    rt__see_light(p, lanes, direct);
+}
+
+/* In which lanes it ends there: on all but mirrors, and when they have looked far
+ * enough. */
+RT__INLINE rt__m rt__looked(const rt__job *job, const rt__packet *p, int bounce,
+                            rt__m mirror)
+{
+    const bool last = bounce >= job->options.bounces || bounce >= RT__ROULETTE;
+    return last ? p->lanes : p->lanes & rt__no(mirror);
+}
+
+/* rt_first_look, as part of the path. Where the path ends before, because no light is left
+ * in it, the guide is still looked for: see rt__step_all. */
 RT__NOINLINE void rt__look_first(const rt__job *job, rt__packet *p, int bounce,
                                  rt__m missed, const rt__f3 *light)
 {
-    const rt__hits *hits = &p->hits;
-    const rt__f zero = rt__all(0.0f);
-    const rt__f3 rho = hits->albedo;
-    const rt__m mirror = rt__less(zero, hits->kind);
+    const rt__f one = rt__all(1.0f), zero = one - one;
+    const rt__f3 rho = p->hits.albedo, white = rt__vec(one, one, one);
+    const rt__m mirror = rt__less(zero, p->hits.kind);
     const rt__m clear =
         mirror & rt__no(rt__less(zero, rt__fmax(rho.x, rt__fmax(rho.y, rho.z))));
-    const rt__m last = bounce >= job->options.bounces || bounce >= RT__ROULETTE
-                           ? p->looking
-                           : p->looking & rt__no(p->looking);
-    const rt__m ends = p->looking & (missed | last | rt__no(mirror));
-    const rt__m met = ends & rt__no(missed);
-    p->looking &= rt__no(ends);
-    p->guide_normal = rt__vselect(met, hits->normal, p->guide_normal);
-    p->guide_point = rt__vselect(met, hits->point, p->guide_point);
-    p->guide_albedo =
-        rt__vselect(met, rt__vselect(clear, p->throughput, rt__mul(p->throughput, rho)),
-                    p->guide_albedo);
-    p->guide_direct = rt__vselect(
-        missed & ends, rt__mul(p->throughput, rt__vall(job->scene->background)),
-        rt__vselect(met & rt__no(mirror), rt__mul(p->throughput, *light),
-                    p->guide_direct));
+    rt__see_light(p, missed, rt__mul(p->throughput, rt__vall(job->scene->background)));
+    rt__see_surface(p, rt__looked(job, p, bounce, mirror), rt__vselect(clear, white, rho),
+                    rt__mul(p->throughput, *light));
 }
 
 /* ... then background and direct light, ... */
@@ -5850,6 +5873,12 @@ RT__INLINE rt__f3 rt__vof_surface(const rt__job *job, const rt__column *column,
     return rt__vec(rt__of_surface(job, column->x, offset, shape, lanes),
                    rt__of_surface(job, column->y, y, shape, lanes),
                    rt__of_surface(job, column->z, z, shape, lanes));
+}
+
+RT__INLINE rt__f3 rt__emission(const rt__job *job, const rt__hits *hits, rt__m lanes)
+{
+    return rt__vof_surface(job, &job->table->emission, offsetof(rt_surface, emission),
+                           hits->shape, lanes);
 }
 
 static rt_hit rt__hit_of(const rt_scene *scene, const rt__hits *hits, int lane)
@@ -6163,7 +6192,10 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
     rt__finishes f;
-    f.albedo = hits->albedo;
+    f.metal = lanes & rt__less(zero, hits->kind);
+    const rt__f most = rt__fmax(hits->albedo.x, rt__fmax(hits->albedo.y, hits->albedo.z));
+    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
+                           hits->albedo);
     f.eta = f.shininess = zero;
     if (scene->surfaces) {
         f.eta = rt__of_surface(job, job->table->eta, offsetof(rt_surface, eta),
@@ -6173,13 +6205,9 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
         if (job->table->patterns)
             rt__patterns(scene, hits, rt__bits(lanes), &f.albedo);
     }
-    f.metal = lanes & rt__less(zero, hits->kind);
     f.shiny = lanes & rt__less(zero, f.shininess);
     f.glass = lanes & rt__less(zero, f.eta);
     f.aims = lanes & rt__no(f.glass | (f.metal & rt__no(f.shiny)));
-    const rt__f most = rt__fmax(f.albedo.x, rt__fmax(f.albedo.y, f.albedo.z));
-    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
-                           f.albedo);
     return f;
 }
 
@@ -6302,6 +6330,10 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
         const rt__f dd = rt__dot(to_light, to_light);
         rt__m counts =
             lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, position));
+        if (scene->lamp_count > 0)
+            counts &= rt__same(rt__nearest_lamps(scene, &hits->point, &to_light, counts,
+                                                 rt__all(1.0f), -1),
+                               (rt__i)zero - 1);
         const rt__f part = rt__lambert(toward, dd, &counts);
         rt__f3 light = rt__scale(rt__mul(f->albedo, intensity), part);
         if (rt__any(f->shiny & counts)) {
@@ -6315,21 +6347,6 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
         sum = rt__vselect(counts, rt__add(sum, light), sum);
     }
     return sum;
-}
-
-/* rt_visible, where the light is so near the surface that rounding decides on which side
- * it is. */
-RT__NOINLINE rt__m rt__unseen_alone(const rt_scene *scene, const rt__hits *hits,
-                                    const rt__f3 *end, unsigned lanes)
-{
-    rt__f blocked = {0.0f};
-    for (; lanes != 0; lanes &= lanes - 1u) {
-        const int lane = rt__lowest(lanes);
-        if (!rt_visible(scene, rt__at(hits->point, lane), rt__at(hits->normal, lane),
-                        rt__lane(end, lane)))
-            blocked[lane] = 1.0f;
-    }
-    return rt__less(rt__all(0.0f), blocked);
 }
 
 /* rt__direct_lamps. */
@@ -6350,17 +6367,13 @@ RT__INLINE rt__f3 rt__from_lamps(const rt__job *job, const rt__packet *p,
         const rt__f3 end = rt__aim(lamp, hits->point, r1, r2, &toward, &aimed);
         const rt__f3 sent =
             rt__scatter(f, f->aims, hits->normal, to_eye, toward, &density);
-        const rt__m lit = f->aims & rt__less(zero, aimed) & rt__less(zero, density);
+        const rt__f3 way = rt__sub(end, hits->point);
+        const rt__m lit = f->aims & rt__less(zero, aimed) & rt__less(zero, density) &
+                          rt__less(zero, rt__dot(hits->normal, way));
         if (!rt__any(lit))
             continue;
         *rays += rt__count(lit);
-        const rt__f3 way = rt__sub(end, hits->point);
-        const rt__m below = lit & rt__less(rt__dot(hits->normal, way), zero);
-        rt__m unseen = rt__unseen(job, &p->place, lit & rt__no(below), hits->normal, end);
-        if (__builtin_expect(rt__any(below), 0))
-            unseen = (unseen & rt__no(below)) |
-                     rt__unseen_alone(scene, hits, &end, rt__bits(below));
-        rt__m counts = lit & rt__no(unseen);
+        rt__m counts = lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, end));
         if (scene->lamp_count > 1)
             counts &= rt__same(
                 rt__nearest_lamps(scene, &hits->point, &way, counts, rt__all(1.0f), i),
@@ -6386,9 +6399,10 @@ RT__NOINLINE void rt__meet_lamps(const rt__job *job, rt__packet *p, rt__i neares
         const rt__f aimed = rt__lamp_density(lamp, p->from, p->direction);
         const rt__f weight =
             rt__select(rt__less(zero, p->density), rt__mis(p->density, aimed), one);
-        const rt__f3 light = rt__scale(rt__vall(rt_lamp_radiance(lamp)), weight);
-        p->sum =
-            rt__vselect(here, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+        const rt__f3 light =
+            rt__mul(p->throughput, rt__scale(rt__vall(rt_lamp_radiance(lamp)), weight));
+        p->sum = rt__vselect(here, rt__add(p->sum, light), p->sum);
+        rt__see_light(p, here, light);
         lanes &= rt__no(here);
     }
 }
@@ -6410,18 +6424,33 @@ RT__INLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
     }
     const rt__m missed = p->lanes & rt__less(hits->kind, zero);
     if (rt__any(missed) && bounce <= job->options.bounces) {
-        const rt__f3 light = rt__sky(scene, &p->direction, rt__bits(missed));
-        p->sum =
-            rt__vselect(missed, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+        const rt__f3 light =
+            rt__mul(p->throughput, rt__sky(scene, &p->direction, rt__bits(missed)));
+        p->sum = rt__vselect(missed, rt__add(p->sum, light), p->sum);
+        rt__see_light(p, missed, light);
     }
     p->lanes &= rt__no(missed);
     if (job->table->emits) {
-        const rt__f3 light =
-            rt__vof_surface(job, &job->table->emission, offsetof(rt_surface, emission),
-                            hits->shape, p->lanes);
+        const rt__f3 light = rt__emission(job, hits, p->lanes);
         p->sum =
             rt__vselect(p->lanes, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
     }
+}
+
+/* rt__first_look_mis, up to the first glass. Through that it looks straight on, which the
+ * path does not: from there on it goes alone, see rt__step_all. */
+RT__NOINLINE void rt__look_first_mis(const rt__job *job, rt__packet *p, int bounce,
+                                     const rt__finishes *f, rt__m mirror,
+                                     const rt__f3 *points)
+{
+    const rt__m ends = rt__looked(job, p, bounce, mirror) & rt__no(f->glass);
+    rt__f3 direct = rt__mul(p->throughput, *points);
+    if (job->table->emits)
+        direct =
+            rt__add(rt__mul(p->throughput, rt__emission(job, &p->hits, ends)), direct);
+    rt__see_surface(p, ends, f->albedo, direct);
+    p->alone |= p->looking & f->glass;
+    p->looking &= rt__no(p->alone);
 }
 
 /* ... then direct light and the way on. */
@@ -6461,9 +6490,13 @@ RT__NOINLINE void rt__scatter_on(const rt__job *job, rt__packet *p, int bounce,
         job->table, &p->place, rt__leave(hits->point, n, below),
         rt__iselect(below, rt__iselect(known, ~hits->left, nowhere), hits->left));
     p->density = zero;
+    rt__f3 points = rt__vec(zero, zero, zero);
+    if (rt__any(f.aims))
+        points = rt__from_points(job, p, &f, to_eye, rays);
+    if (rt__any(p->looking))
+        rt__look_first_mis(job, p, bounce, &f, mirror, &points);
     p->throughput = rt__vselect(mirror, rt__mul(p->throughput, f.albedo), p->throughput);
     if (rt__any(f.aims)) {
-        const rt__f3 points = rt__from_points(job, p, &f, to_eye, rays);
         const rt__f3 direct = rt__add(points, rt__from_lamps(job, p, &f, to_eye, rays));
         p->sum =
             rt__vselect(f.aims, rt__add(p->sum, rt__mul(p->throughput, direct)), p->sum);
@@ -6579,6 +6612,7 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     p->sum = rt__vec(zero, zero, zero);
     p->throughput = rt__vec(one, one, one);
     p->looking = guided ? p->lanes : none;
+    p->alone = none;
     p->guide_normal = p->guide_point = p->guide_albedo = p->guide_direct = p->sum;
     p->hits.point = rt__vall(film->position);
     p->hits.normal = p->sum;
@@ -6611,18 +6645,19 @@ RT__INLINE uint64_t rt__step_all(const rt__job *job, int sample, int first, int 
     for (int i = first; i < last;) {
         int count = 0;
         for (int from = i; count < RT__FLIGHT && from < last; from += RT__LANES)
-            rt__begin(job, sample, from, last, guides != NULL && !part_two,
-                      &packets[count++]);
+            rt__begin(job, sample, from, last, guides != NULL, &packets[count++]);
         rays += part_two ? rt__trace_mis(job, packets, count, watch)
                          : rt__trace(job, packets, count, watch);
-        for (int k = 0; k < count; k++)
+        for (int k = 0; k < count; k++) {
+            const unsigned alone = rt__bits(packets[k].looking | packets[k].alone);
             for (int lane = 0; lane < RT__LANES && i < last; lane++, i++) {
                 values[i - first] = rt__lane(&packets[k].sum, lane);
                 if (guides)
-                    guides[i - first] = part_two
+                    guides[i - first] = (alone >> lane & 1u) != 0
                                             ? rt__guide(job, i, rt__start(job, sample, i))
                                             : rt__guide_of(&packets[k], lane);
             }
+        }
     }
     return rays;
 }
