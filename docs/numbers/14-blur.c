@@ -25,7 +25,8 @@ static double measured(double z)
     rt_camera camera = room_camera;
     camera.position = rt_vec(0, 0, 0);
     camera.direction = rt_vec(0, 0, -1);
-    camera.fov_y = (float)(2 * 57.29577951 * atan(tan(46 / 57.29577951 / 2) * HEIGHT / TALL));
+    camera.fov_y =
+        (float)(2 * 57.29577951 * atan(tan(46 / 57.29577951 / 2) * HEIGHT / TALL));
     const rt_sphere ball = {{0, 0, -(float)z}, 0.1f, {{0, 0, 0}, false}};
     const rt_surface shines = {.emission = {1, 1, 1}};
     const rt_scene scene = {.spheres = &ball, .sphere_count = 1, .surfaces = &shines};
@@ -57,5 +58,6 @@ int main(void)
     printf("\nwall: %.1f\nnear: %.1f\nfar: %.1f\nhalf-near: %.1f\nhalf-far: %.1f\n"
            "pixel: %.3f\nlimit: %.1f\ninfinity: %.1f\n",
            formula(165, R, f, 46), f / (1 + one), f / (1 - one), f / (1 + one * 2),
-           f / (1 - one * 2), pixel_size(f, 46), R / pixel_size(f, 46), R / 165 / pixel_size(1, 46));
+           f / (1 - one * 2), pixel_size(f, 46), R / pixel_size(f, 46),
+           R / 165 / pixel_size(1, 46));
 }

@@ -67,8 +67,8 @@ static double room(bool lamp, bool glass)
     static rt_vec3 pixels[COUNT], half[COUNT];
     const float d = rt_length(room_sun.center), sine = room_sun.radius / d;
     const spot s = {rt_scale(room_sun.center, 1 / d), sqrtf(1 - sine * sine), 0};
-    const rt_surface no_glass[ROOM_SHAPES] = {[ROOM_BALL] = {.shininess = 300},
-                                              [ROOM_MIRROR] = {.shininess = 60}};
+    const rt_surface no_glass[ROOM_SHAPES] = {
+        [ROOM_BALL] = {.shininess = 300}, [ROOM_MIRROR] = {.shininess = 60}};
     rt_scene scene = scene_sky;
     if (!lamp) {
         scene.lamp_count = 0;
@@ -86,7 +86,8 @@ static double room(bool lamp, bool glass)
 
 int main(void)
 {
-    printf("| half the angle of the sun | light by formula | as a lamp | in the sky | noise as a "
+    printf("| half the angle of the sun | light by formula | as a lamp | in the sky | "
+           "noise as a "
            "lamp | noise in the sky |\n|---|---|---|---|---|---|\n");
     printf("| 6.9°: the demo's |");
     row("demo", 6.9);

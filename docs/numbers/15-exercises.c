@@ -24,13 +24,15 @@ static rt_vec3 faded_checker(const void *data, rt_vec3 P, rt_vec3 N)
 {
     const faded *f = data;
     const rt_vec3 way = rt_sub(P, f->eye), sharp = checker_pattern(&f->tiles, P, N);
-    const float pixel = rt_dot(way, way) / fabsf(way.y) / 240; /* its length on the floor */
+    const float pixel =
+        rt_dot(way, way) / fabsf(way.y) / 240; /* its length on the floor */
     const float share = f->tiles.size / pixel, keep = share < 1 ? share * share : 1;
     const rt_vec3 mean = rt_scale(rt_add(f->tiles.even, f->tiles.odd), 0.5f);
     return rt_add(rt_scale(sharp, keep), rt_scale(mean, 1 - keep));
 }
 
-static void far_rows(const char *name, rt_pattern_function *pattern, const void *data, int n)
+static void far_rows(const char *name, rt_pattern_function *pattern, const void *data,
+                     int n)
 {
     double sum = 0, square = 0;
     rt_rng rng = rt_rng_start(0, 0, 1);
@@ -38,7 +40,8 @@ static void far_rows(const char *name, rt_pattern_function *pattern, const void 
         double pixel = 0;
         const float x0 = (float)(i % 320), y0 = 3 + (float)(i / 320 % 4);
         for (int k = 0; k < n; k++) { /* eye 10 above the floor, a pixel is 1/240 */
-            const float x = (x0 + rt_random(&rng) - 160) / 240, y = (y0 + rt_random(&rng)) / 240;
+            const float x = (x0 + rt_random(&rng) - 160) / 240,
+                        y = (y0 + rt_random(&rng)) / 240;
             const rt_vec3 P = rt_vec(x * 10 / y, -10, -10 / y);
             pixel += (double)pattern(data, P, rt_vec(0, 1, 0)).x / n;
         }
@@ -50,7 +53,8 @@ static void far_rows(const char *name, rt_pattern_function *pattern, const void 
 
 int main(void)
 {
-    printf("wood: %.2f, %.2f, %.2f, %.2f\n", wood(NULL, rt_vec(1, 5, 0), rt_vec(0, 1, 0)).x,
+    printf("wood: %.2f, %.2f, %.2f, %.2f\n",
+           wood(NULL, rt_vec(1, 5, 0), rt_vec(0, 1, 0)).x,
            wood(NULL, rt_vec(-3.5f, 0, 0), rt_vec(0, 1, 0)).x,
            wood(NULL, rt_vec(0, -7, -4.5f), rt_vec(0, 1, 0)).x,
            wood(NULL, rt_vec(3, 0, -4), rt_vec(0, 1, 0)).x);
@@ -58,7 +62,8 @@ int main(void)
     rt_rng rng = rt_rng_start(0, 0, 0);
     for (int i = 0; i < 1000000; i++) {
         const float x = rt_random(&rng), z = rt_random(&rng);
-        mean += (double)wood(NULL, rt_vec(1000 * x, 0, 1000 * z), rt_vec(0, 1, 0)).x / 1e6;
+        mean +=
+            (double)wood(NULL, rt_vec(1000 * x, 0, 1000 * z), rt_vec(0, 1, 0)).x / 1e6;
     }
     printf("wood-mean: %.3f\n", mean);
 
@@ -70,8 +75,8 @@ int main(void)
         printf("stretch%d: %.2f\n", degrees, arc / h);
     }
     /* the share of a sphere that a map's top tenth of rows covers, and thrown on from the front */
-    printf("map-top: %.2f\nthrown-top: %.2f\n", 100 * (1 - cos(3.14159265358979 / 10)) / 2,
-           100 * 0.1);
+    printf("map-top: %.2f\nthrown-top: %.2f\n",
+           100 * (1 - cos(3.14159265358979 / 10)) / 2, 100 * 0.1);
 
     const faded f = {{10, {0.8f, 0.8f, 0.8f}, {0.12f, 0.12f, 0.12f}}, {0, 0, 0}};
     far_rows("one", checker_pattern, &f.tiles, 1);

@@ -44,6 +44,5 @@ int main(void)
     }
     printf("low: %.2f\nhigh: %.2f\nmean: %.3f\nsigma: %.3f\n", low, high, mean,
            sqrt(square - mean * mean));
-    printf("crease-straight: %.2f\ncrease-smooth: %.2f\n", crease(false),
-           crease(true));
+    printf("crease-straight: %.2f\ncrease-smooth: %.2f\n", crease(false), crease(true));
 }

@@ -2,12 +2,19 @@
 #include <math.h>
 #include <stdio.h>
 
-static int right(float x) { return (int)floorf(x / 10); }
-static int cut(float x) { return (int)(x / 10); } /* towards 0, not down */
+static int right(float x)
+{
+    return (int)floorf(x / 10);
+}
+static int cut(float x)
+{
+    return (int)(x / 10);
+} /* towards 0, not down */
 
 int main(void)
 {
-    printf("| | tiles from -40 to 40, a letter for 5 units |\n|---|---|\n| floor, `% 2 == 0` | `");
+    printf("| | tiles from -40 to 40, a letter for 5 units |\n|---|---|\n| floor, `% 2 "
+           "== 0` | `");
     for (int i = -8; i < 8; i++)
         putchar(right((float)i * 5 + 2.5f) % 2 == 0 ? '#' : '.');
     printf("` |\n| `(int)`, `%% 2 == 0` | `");
