@@ -2011,10 +2011,10 @@ static inline float rt_mis(float density, float other)
  *
  *     D(h) = a^2 / (pi (<N,h>^2 (a^2 - 1) + 1)^2),        a^2 = 2 / (shininess + 2).
  *
- * The name shininess, and what it means, are those of the exponent in B. Phong,
- * "Illumination for computer generated pictures", 1975: near its middle the lobe
- * cos^shininess is as wide. Why not Phong's lobe itself: at 60 degrees half of the light
- * is gone, whatever the exponent. See docs/13-gloss.md.
+ * The name shininess is that of the exponent in B. Phong, "Illumination for computer
+ * generated pictures", 1975. Along N there are as many facets here as in the lobe
+ * (shininess + 2) / (2 pi) <N,h>^shininess. Why not Phong's lobe itself: at 60 degrees
+ * half of the light is gone, whatever the exponent. See docs/13-gloss.md.
  * ==================================================================================== */
 
 static inline float rt__roughness2(float shininess)
@@ -2041,11 +2041,10 @@ static inline float rt__hidden(float cosine, float a2)
  * its share of the view. r1, r2 are uniform in (0, 1). It may point below the surface;
  * then the light goes nowhere.
  *
- * The surface is stretched by 1/a along its plane, so that the facets become a
- * hemisphere; there the wanted normal is halfway between the eye and a uniform direction
- * of a cap. J. Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG
- * 2023, after E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4),
- * 2018. */
+ * The surface is stretched by 1/a along N, so that the facets become a hemisphere; there
+ * the wanted normal is halfway between the eye and a uniform direction of a cap. J.
+ * Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG 2023, after
+ * E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4), 2018. */
 #ifndef rt_sample_gloss
 static inline rt_vec3 rt_sample_gloss(rt_vec3 normal, rt_vec3 to_eye, float shininess,
                                       float r1, float r2)
@@ -2747,7 +2746,8 @@ typedef struct rt_shadow {
     int lamp;          /* this one; else -1 */
     rt_ray ray;        /* from the point, to the light at t = 1 */
     float cosine, dd;  /* <N,L> and d^2 */
-    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen */
+    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen (if
+                    no lamp with a size hides it: then light_sent is black) */
     float t;
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
     float weight;       /* of a lamp, already in light_sent: see rt_mis */
@@ -2937,6 +2937,12 @@ static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, in
         v->event = RT_EVENT_LAMP;
         v->shape = -1;
         memset(&v->hit, 0, sizeof v->hit);
+    } else if (v->shape >= 0) { /* in case that it ends here: what the surface is */
+        const rt_surface *surface = rt_surface_of(scene, &v->hit);
+        v->event = surface->eta > 0.0f         ? RT_EVENT_REFRACTED
+                   : !v->hit.material->mirror  ? RT_EVENT_MATT
+                   : surface->shininess > 0.0f ? RT_EVENT_GLOSS
+                                               : RT_EVENT_MIRROR;
     }
 }
 
@@ -6189,7 +6195,10 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
     rt__finishes f;
-    f.albedo = hits->albedo;
+    f.metal = lanes & rt__less(zero, hits->kind);
+    const rt__f most = rt__fmax(hits->albedo.x, rt__fmax(hits->albedo.y, hits->albedo.z));
+    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
+                           hits->albedo);
     f.eta = f.shininess = zero;
     if (scene->surfaces) {
         f.eta = rt__of_surface(job, job->table->eta, offsetof(rt_surface, eta),
@@ -6199,13 +6208,9 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
         if (job->table->patterns)
             rt__patterns(scene, hits, rt__bits(lanes), &f.albedo);
     }
-    f.metal = lanes & rt__less(zero, hits->kind);
     f.shiny = lanes & rt__less(zero, f.shininess);
     f.glass = lanes & rt__less(zero, f.eta);
     f.aims = lanes & rt__no(f.glass | (f.metal & rt__no(f.shiny)));
-    const rt__f most = rt__fmax(f.albedo.x, rt__fmax(f.albedo.y, f.albedo.z));
-    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
-                           f.albedo);
     return f;
 }
 
@@ -6328,6 +6333,10 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
         const rt__f dd = rt__dot(to_light, to_light);
         rt__m counts =
             lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, position));
+        if (scene->lamp_count > 0)
+            counts &= rt__same(rt__nearest_lamps(scene, &hits->point, &to_light, counts,
+                                                 rt__all(1.0f), -1),
+                               (rt__i)zero - 1);
         const rt__f part = rt__lambert(toward, dd, &counts);
         rt__f3 light = rt__scale(rt__mul(f->albedo, intensity), part);
         if (rt__any(f->shiny & counts)) {

@@ -1,0 +1,18 @@
+/* Never gets in
+ *
+ * Symptom: dark, speckled glass: what one sees is reflection; what should come from
+ *          behind arrives late or never
+ * Cause:   every ray starts on the side of the normal, which is right for a reflection;
+ *          the ray that is refracted goes to the other side, and meets the surface that it
+ *          has just left, again and again
+ * Cure:    a little beside the surface on the side to which the ray *goes* (rt_leave)
+ * Options:
+ */
+#define rt_leave my_leave
+#include "rt.h"
+
+static inline rt_vec3 my_leave(rt_vec3 point, rt_vec3 normal, rt_vec3 direction)
+{
+    (void)direction;
+    return rt_add(point, rt_scale(normal, 1e-3f));
+}
