@@ -5240,8 +5240,9 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, rt__f low, rt__f high, rt
     cuts->t_out = rt__select(sooner, t_out, cuts->t_out);
     cuts->axis_in = rt__iselect(later, here, cuts->axis_in);
     cuts->axis_out = rt__iselect(sooner, here, cuts->axis_out);
-    cuts->miss |= (parallel & (rt__less(o, low) | rt__less(high, o))) |
-                  rt__less(t_out, t_in) | rt__less(cuts->t_out, cuts->t_in);
+    const rt__m outside = parallel & (rt__less(o, low) | rt__less(high, o));
+    const rt__m past = rt__less(t_out, t_in) | rt__less(cuts->t_out, cuts->t_in);
+    cuts->miss |= outside | past;
 }
 
 /* One coordinate of normal and point: on the plane, if the ray comes or goes through one
@@ -5465,9 +5466,10 @@ RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt
     const rt__m unclear = rt__less(rt__abs(start), twice) | rt__less(rt__abs(end), twice);
     const rt__m from = rt__less(start, zero), to = rt__less(end, zero);
     const rt__m ahead = rt__no(from | to) & rt__less(b, zero) & rt__less(-a, b);
-    shade->sure |=
-        ((from ^ to) | rt__and_less(ahead, a * (c + doubt), bb)) & rt__no(unclear | left);
-    shade->may |= (unclear | rt__and_less(ahead, a * (c - doubt), bb)) & rt__no(left);
+    const rt__m sure = (from ^ to) | rt__and_less(ahead, a * (c + doubt), bb);
+    const rt__m may = unclear | rt__and_less(ahead, a * (c - doubt), bb);
+    shade->sure |= sure & rt__no(unclear | left);
+    shade->may |= may & rt__no(left);
 }
 
 /* rt_occluded up to t = 1, of a scene with few shapes. No root is needed: where both ends
@@ -5545,7 +5547,8 @@ RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
 /* rt_lambert, where the light is in front: the part of it that is sent on, or 0. */
 RT__INLINE rt__f rt__lambert(rt__f toward, rt__f dd, rt__m *counts)
 {
-    *counts &= rt__less(rt__all(1e-20f), dd) & rt__no(rt__less(rt__all(FLT_MAX), dd));
+    *counts &= rt__less(rt__all(1e-20f), dd);
+    *counts &= rt__no(rt__less(rt__all(FLT_MAX), dd));
     return toward / rt__fsqrt(dd) / (3.14159265359f * dd);
 }
 
@@ -6509,7 +6512,7 @@ RT__NOINLINE void rt__scatter_on(const rt__job *job, rt__packet *p, int bounce,
             rt__vselect(f.shiny, rt__scale(sent, 1.0f / density), f.albedo);
         p->throughput = rt__vselect(f.aims, rt__mul(p->throughput, part), p->throughput);
         p->density = rt__select(f.aims, density, zero);
-        p->lanes &= rt__no(f.aims) | rt__less(zero, density);
+        p->lanes &= rt__no(f.aims & rt__no(rt__less(zero, density)));
     }
     p->numbers.dimension = numbers.dimension + (rt__u)rt__iselect(mirror, two - 2, two);
     p->from = hits->point;
