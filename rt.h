@@ -1852,10 +1852,11 @@ typedef struct rt_lamp {
                      v; both of its faces shine */
 } rt_lamp;
 
-/* The area of a parallelogram. */
+/* The area of a parallelogram; in double, for the square of 1e30 is no float. */
 static inline float rt__lamp_area(const rt_lamp *lamp)
 {
-    return 4.0f * rt_length(rt_cross(lamp->u, lamp->v));
+    const rt_dvec3 n = rt_dcross(rt_to_double(lamp->u), rt_to_double(lamp->v));
+    return (float)(4.0 * sqrt(rt_ddot(n, n)));
 }
 
 /* The radiance of the lamp, from wherever one looks at it: L = I over the area that it
@@ -1882,7 +1883,7 @@ static inline float rt_meet_lamp(const rt_lamp *lamp, const rt_ray *ray, float t
     const rt_vec3 n = rt_normalize(rt_cross(lamp->u, lamp->v));
     const float toward = rt_dot(ray->direction, n);
     const float way = rt_dot(rt_sub(lamp->center, ray->origin), n);
-    if (!(fabsf(way) < 1e30f * fabsf(toward))) /* along the plane, or as good as */
+    if (!(1e-17f * fabsf(way) < fabsf(toward))) /* along the plane, or as good as */
         return 0.0f;
     const float t = way / toward;
     if (!(t > 0.0f && t < t_max))
@@ -2011,10 +2012,10 @@ static inline float rt_mis(float density, float other)
  *
  *     D(h) = a^2 / (pi (<N,h>^2 (a^2 - 1) + 1)^2),        a^2 = 2 / (shininess + 2).
  *
- * The name shininess, and what it means, are those of the exponent in B. Phong,
- * "Illumination for computer generated pictures", 1975: near its middle the lobe
- * cos^shininess is as wide. Why not Phong's lobe itself: at 60 degrees half of the light
- * is gone, whatever the exponent. See docs/13-gloss.md.
+ * The name shininess is that of the exponent in B. Phong, "Illumination for computer
+ * generated pictures", 1975. Along N there are as many facets here as in the lobe
+ * (shininess + 2) / (2 pi) <N,h>^shininess. Why not Phong's lobe itself: at 60 degrees
+ * half of the light is gone, whatever the exponent. See docs/13-gloss.md.
  * ==================================================================================== */
 
 static inline float rt__roughness2(float shininess)
@@ -2041,11 +2042,10 @@ static inline float rt__hidden(float cosine, float a2)
  * its share of the view. r1, r2 are uniform in (0, 1). It may point below the surface;
  * then the light goes nowhere.
  *
- * The surface is stretched by 1/a along its plane, so that the facets become a
- * hemisphere; there the wanted normal is halfway between the eye and a uniform direction
- * of a cap. J. Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG
- * 2023, after E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4),
- * 2018. */
+ * The surface is stretched by 1/a along N, so that the facets become a hemisphere; there
+ * the wanted normal is halfway between the eye and a uniform direction of a cap. J.
+ * Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG 2023, after
+ * E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4), 2018. */
 #ifndef rt_sample_gloss
 static inline rt_vec3 rt_sample_gloss(rt_vec3 normal, rt_vec3 to_eye, float shininess,
                                       float r1, float r2)
@@ -2350,16 +2350,17 @@ static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
         const float r1 = rt_random(rng);
         const float r2 = rt_random(rng);
         const rt_vec3 end = rt_sample_lamp(lamp, hit->point, r1, r2);
-        const rt_vec3 toward = rt__unit(rt_sub(end, hit->point));
-        const float aimed = rt_lamp_density(lamp, hit->point, toward);
-        float density;
-        const rt_vec3 f = rt_scatter(finish, hit->normal, to_eye, toward, &density);
-        if (!(aimed > 0.0f && density > 0.0f))
-            continue; /* from within the lamp, or behind the surface */
-        rng->rays++;
         rt_ray way; /* on which no other lamp may stand, either */
         way.origin = hit->point;
         way.direction = rt_sub(end, hit->point);
+        const rt_vec3 toward = rt__unit(way.direction);
+        const float aimed = rt_lamp_density(lamp, hit->point, toward);
+        float density;
+        const rt_vec3 f = rt_scatter(finish, hit->normal, to_eye, toward, &density);
+        if (!(aimed > 0.0f && density > 0.0f &&
+              rt_dot(hit->normal, way.direction) > 0.0f))
+            continue; /* from within the lamp, or behind the surface */
+        rng->rays++;
         const bool seen = rt_visible(scene, hit->point, hit->normal, end) &&
                           rt__nearest_lamp(scene, &way, 1.0f, i) < 0;
         const float weight = rt_mis(aimed, density);
@@ -2746,7 +2747,8 @@ typedef struct rt_shadow {
     int lamp;          /* this one; else -1 */
     rt_ray ray;        /* from the point, to the light at t = 1 */
     float cosine, dd;  /* <N,L> and d^2 */
-    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen */
+    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen (if
+                    no lamp with a size hides it: then light_sent is black) */
     float t;
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
     float weight;       /* of a lamp, already in light_sent: see rt_mis */
@@ -2936,6 +2938,12 @@ static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, in
         v->event = RT_EVENT_LAMP;
         v->shape = -1;
         memset(&v->hit, 0, sizeof v->hit);
+    } else if (v->shape >= 0) { /* in case that it ends here: what the surface is */
+        const rt_surface *surface = rt_surface_of(scene, &v->hit);
+        v->event = surface->eta > 0.0f         ? RT_EVENT_REFRACTED
+                   : !v->hit.material->mirror  ? RT_EVENT_MATT
+                   : surface->shininess > 0.0f ? RT_EVENT_GLOSS
+                                               : RT_EVENT_MIRROR;
     }
 }
 
@@ -5232,8 +5240,9 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, rt__f low, rt__f high, rt
     cuts->t_out = rt__select(sooner, t_out, cuts->t_out);
     cuts->axis_in = rt__iselect(later, here, cuts->axis_in);
     cuts->axis_out = rt__iselect(sooner, here, cuts->axis_out);
-    cuts->miss |= (parallel & (rt__less(o, low) | rt__less(high, o))) |
-                  rt__less(t_out, t_in) | rt__less(cuts->t_out, cuts->t_in);
+    const rt__m outside = parallel & (rt__less(o, low) | rt__less(high, o));
+    const rt__m past = rt__less(t_out, t_in) | rt__less(cuts->t_out, cuts->t_in);
+    cuts->miss |= outside | past;
 }
 
 /* One coordinate of normal and point: on the plane, if the ray comes or goes through one
@@ -5457,9 +5466,10 @@ RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt
     const rt__m unclear = rt__less(rt__abs(start), twice) | rt__less(rt__abs(end), twice);
     const rt__m from = rt__less(start, zero), to = rt__less(end, zero);
     const rt__m ahead = rt__no(from | to) & rt__less(b, zero) & rt__less(-a, b);
-    shade->sure |=
-        ((from ^ to) | rt__and_less(ahead, a * (c + doubt), bb)) & rt__no(unclear | left);
-    shade->may |= (unclear | rt__and_less(ahead, a * (c - doubt), bb)) & rt__no(left);
+    const rt__m sure = (from ^ to) | rt__and_less(ahead, a * (c + doubt), bb);
+    const rt__m may = unclear | rt__and_less(ahead, a * (c - doubt), bb);
+    shade->sure |= sure & rt__no(unclear | left);
+    shade->may |= may & rt__no(left);
 }
 
 /* rt_occluded up to t = 1, of a scene with few shapes. No root is needed: where both ends
@@ -5537,7 +5547,8 @@ RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
 /* rt_lambert, where the light is in front: the part of it that is sent on, or 0. */
 RT__INLINE rt__f rt__lambert(rt__f toward, rt__f dd, rt__m *counts)
 {
-    *counts &= rt__less(rt__all(1e-20f), dd) & rt__no(rt__less(rt__all(FLT_MAX), dd));
+    *counts &= rt__less(rt__all(1e-20f), dd);
+    *counts &= rt__no(rt__less(rt__all(FLT_MAX), dd));
     return toward / rt__fsqrt(dd) / (3.14159265359f * dd);
 }
 
@@ -5675,7 +5686,8 @@ typedef struct rt__packet {
     rt__numbers numbers;
     rt__hits hits;
     rt__place place;
-    rt__m looking; /* whose guide is wanted, and not there yet */
+    rt__m looking; /* whose guide is wanted, and not there yet; */
+    rt__m alone;   /* or not to be found on this path */
     rt__f3 guide_normal, guide_point, guide_albedo, guide_direct;
     rt__f3 from;   /* part two: the point that the ray has left, and the density */
     rt__f density; /* of its direction, 0: there was no choice */
@@ -5699,32 +5711,46 @@ RT__INLINE void rt__set_out(const rt__job *job, rt__packet *p, rt__m below)
                  rt__iselect(below, nowhere, p->hits.left));
 }
 
-/* rt_first_look, as part of the path: it ends in lanes that missed, or hit no mirror, or
- * have looked far enough. */
+/* The first look of these lanes ends at a light that they see, ... */
+RT__INLINE void rt__see_light(rt__packet *p, rt__m lanes, rt__f3 direct)
+{
+    lanes &= p->looking;
+    p->looking &= rt__no(lanes);
+    p->guide_direct = rt__vselect(lanes, direct, p->guide_direct);
+}
+
+/* ... or at a surface. */
+RT__INLINE void rt__see_surface(rt__packet *p, rt__m lanes, rt__f3 albedo, rt__f3 direct)
+{
+    lanes &= p->looking;
+    p->guide_normal = rt__vselect(lanes, p->hits.normal, p->guide_normal);
+    p->guide_point = rt__vselect(lanes, p->hits.point, p->guide_point);
+    p->guide_albedo = rt__vselect(lanes, rt__mul(p->throughput, albedo), p->guide_albedo);
+    rt__see_light(p, lanes, direct);
+}
+
+/* In which lanes it ends there: on all but mirrors, and when they have looked far
+ * enough. */
+RT__INLINE rt__m rt__looked(const rt__job *job, const rt__packet *p, int bounce,
+                            rt__m mirror)
+{
+    const bool last = bounce >= job->options.bounces || bounce >= RT__ROULETTE;
+    return last ? p->lanes : p->lanes & rt__no(mirror);
+}
+
+/* rt_first_look, as part of the path. Where the path ends before, because no light is left
+ * in it, the guide is still looked for: see rt__step_all. */
 RT__NOINLINE void rt__look_first(const rt__job *job, rt__packet *p, int bounce,
                                  rt__m missed, const rt__f3 *light)
 {
-    const rt__hits *hits = &p->hits;
-    const rt__f zero = rt__all(0.0f);
-    const rt__f3 rho = hits->albedo;
-    const rt__m mirror = rt__less(zero, hits->kind);
+    const rt__f one = rt__all(1.0f), zero = one - one;
+    const rt__f3 rho = p->hits.albedo, white = rt__vec(one, one, one);
+    const rt__m mirror = rt__less(zero, p->hits.kind);
     const rt__m clear =
         mirror & rt__no(rt__less(zero, rt__fmax(rho.x, rt__fmax(rho.y, rho.z))));
-    const rt__m last = bounce >= job->options.bounces || bounce >= RT__ROULETTE
-                           ? p->looking
-                           : p->looking & rt__no(p->looking);
-    const rt__m ends = p->looking & (missed | last | rt__no(mirror));
-    const rt__m met = ends & rt__no(missed);
-    p->looking &= rt__no(ends);
-    p->guide_normal = rt__vselect(met, hits->normal, p->guide_normal);
-    p->guide_point = rt__vselect(met, hits->point, p->guide_point);
-    p->guide_albedo =
-        rt__vselect(met, rt__vselect(clear, p->throughput, rt__mul(p->throughput, rho)),
-                    p->guide_albedo);
-    p->guide_direct = rt__vselect(
-        missed & ends, rt__mul(p->throughput, rt__vall(job->scene->background)),
-        rt__vselect(met & rt__no(mirror), rt__mul(p->throughput, *light),
-                    p->guide_direct));
+    rt__see_light(p, missed, rt__mul(p->throughput, rt__vall(job->scene->background)));
+    rt__see_surface(p, rt__looked(job, p, bounce, mirror), rt__vselect(clear, white, rho),
+                    rt__mul(p->throughput, *light));
 }
 
 /* ... then background and direct light, ... */
@@ -5851,6 +5877,12 @@ RT__INLINE rt__f3 rt__vof_surface(const rt__job *job, const rt__column *column,
     return rt__vec(rt__of_surface(job, column->x, offset, shape, lanes),
                    rt__of_surface(job, column->y, y, shape, lanes),
                    rt__of_surface(job, column->z, z, shape, lanes));
+}
+
+RT__INLINE rt__f3 rt__emission(const rt__job *job, const rt__hits *hits, rt__m lanes)
+{
+    return rt__vof_surface(job, &job->table->emission, offsetof(rt_surface, emission),
+                           hits->shape, lanes);
 }
 
 static rt_hit rt__hit_of(const rt_scene *scene, const rt__hits *hits, int lane)
@@ -6105,7 +6137,7 @@ RT__NOINLINE rt__f rt__meet_panel(const rt_lamp *lamp, const rt__f3 *origin,
     const rt__f3 p = rt__sub(rt__add(*origin, rt__scale(*direction, t)), center);
     const rt__f u = rt__abs(rt__dot(p, rt__vall(across_v)));
     const rt__f v = rt__abs(rt__dot(p, rt__vall(across_u)));
-    const rt__m met = lanes & rt__less(rt__abs(way), 1e30f * rt__abs(toward)) &
+    const rt__m met = lanes & rt__less(1e-17f * rt__abs(way), rt__abs(toward)) &
                       rt__less(zero, t) & rt__less(t, t_max) &
                       (rt__less(u, most_u) | rt__same((rt__i)u, (rt__i)most_u)) &
                       (rt__less(v, most_v) | rt__same((rt__i)v, (rt__i)most_v));
@@ -6164,7 +6196,10 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
     rt__finishes f;
-    f.albedo = hits->albedo;
+    f.metal = lanes & rt__less(zero, hits->kind);
+    const rt__f most = rt__fmax(hits->albedo.x, rt__fmax(hits->albedo.y, hits->albedo.z));
+    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
+                           hits->albedo);
     f.eta = f.shininess = zero;
     if (scene->surfaces) {
         f.eta = rt__of_surface(job, job->table->eta, offsetof(rt_surface, eta),
@@ -6174,13 +6209,9 @@ RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits
         if (job->table->patterns)
             rt__patterns(scene, hits, rt__bits(lanes), &f.albedo);
     }
-    f.metal = lanes & rt__less(zero, hits->kind);
     f.shiny = lanes & rt__less(zero, f.shininess);
     f.glass = lanes & rt__less(zero, f.eta);
     f.aims = lanes & rt__no(f.glass | (f.metal & rt__no(f.shiny)));
-    const rt__f most = rt__fmax(f.albedo.x, rt__fmax(f.albedo.y, f.albedo.z));
-    f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
-                           f.albedo);
     return f;
 }
 
@@ -6303,6 +6334,10 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
         const rt__f dd = rt__dot(to_light, to_light);
         rt__m counts =
             lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, position));
+        if (scene->lamp_count > 0)
+            counts &= rt__same(rt__nearest_lamps(scene, &hits->point, &to_light, counts,
+                                                 rt__all(1.0f), -1),
+                               (rt__i)zero - 1);
         const rt__f part = rt__lambert(toward, dd, &counts);
         rt__f3 light = rt__scale(rt__mul(f->albedo, intensity), part);
         if (rt__any(f->shiny & counts)) {
@@ -6316,21 +6351,6 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
         sum = rt__vselect(counts, rt__add(sum, light), sum);
     }
     return sum;
-}
-
-/* rt_visible, where the light is so near the surface that rounding decides on which side
- * it is. */
-RT__NOINLINE rt__m rt__unseen_alone(const rt_scene *scene, const rt__hits *hits,
-                                    const rt__f3 *end, unsigned lanes)
-{
-    rt__f blocked = {0.0f};
-    for (; lanes != 0; lanes &= lanes - 1u) {
-        const int lane = rt__lowest(lanes);
-        if (!rt_visible(scene, rt__at(hits->point, lane), rt__at(hits->normal, lane),
-                        rt__lane(end, lane)))
-            blocked[lane] = 1.0f;
-    }
-    return rt__less(rt__all(0.0f), blocked);
 }
 
 /* rt__direct_lamps. */
@@ -6351,17 +6371,13 @@ RT__INLINE rt__f3 rt__from_lamps(const rt__job *job, const rt__packet *p,
         const rt__f3 end = rt__aim(lamp, hits->point, r1, r2, &toward, &aimed);
         const rt__f3 sent =
             rt__scatter(f, f->aims, hits->normal, to_eye, toward, &density);
-        const rt__m lit = f->aims & rt__less(zero, aimed) & rt__less(zero, density);
+        const rt__f3 way = rt__sub(end, hits->point);
+        const rt__m lit = f->aims & rt__less(zero, aimed) & rt__less(zero, density) &
+                          rt__less(zero, rt__dot(hits->normal, way));
         if (!rt__any(lit))
             continue;
         *rays += rt__count(lit);
-        const rt__f3 way = rt__sub(end, hits->point);
-        const rt__m below = lit & rt__less(rt__dot(hits->normal, way), zero);
-        rt__m unseen = rt__unseen(job, &p->place, lit & rt__no(below), hits->normal, end);
-        if (__builtin_expect(rt__any(below), 0))
-            unseen = (unseen & rt__no(below)) |
-                     rt__unseen_alone(scene, hits, &end, rt__bits(below));
-        rt__m counts = lit & rt__no(unseen);
+        rt__m counts = lit & rt__no(rt__unseen(job, &p->place, lit, hits->normal, end));
         if (scene->lamp_count > 1)
             counts &= rt__same(
                 rt__nearest_lamps(scene, &hits->point, &way, counts, rt__all(1.0f), i),
@@ -6387,9 +6403,10 @@ RT__NOINLINE void rt__meet_lamps(const rt__job *job, rt__packet *p, rt__i neares
         const rt__f aimed = rt__lamp_density(lamp, p->from, p->direction);
         const rt__f weight =
             rt__select(rt__less(zero, p->density), rt__mis(p->density, aimed), one);
-        const rt__f3 light = rt__scale(rt__vall(rt_lamp_radiance(lamp)), weight);
-        p->sum =
-            rt__vselect(here, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+        const rt__f3 light =
+            rt__mul(p->throughput, rt__scale(rt__vall(rt_lamp_radiance(lamp)), weight));
+        p->sum = rt__vselect(here, rt__add(p->sum, light), p->sum);
+        rt__see_light(p, here, light);
         lanes &= rt__no(here);
     }
 }
@@ -6411,18 +6428,33 @@ RT__INLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
     }
     const rt__m missed = p->lanes & rt__less(hits->kind, zero);
     if (rt__any(missed) && bounce <= job->options.bounces) {
-        const rt__f3 light = rt__sky(scene, &p->direction, rt__bits(missed));
-        p->sum =
-            rt__vselect(missed, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
+        const rt__f3 light =
+            rt__mul(p->throughput, rt__sky(scene, &p->direction, rt__bits(missed)));
+        p->sum = rt__vselect(missed, rt__add(p->sum, light), p->sum);
+        rt__see_light(p, missed, light);
     }
     p->lanes &= rt__no(missed);
     if (job->table->emits) {
-        const rt__f3 light =
-            rt__vof_surface(job, &job->table->emission, offsetof(rt_surface, emission),
-                            hits->shape, p->lanes);
+        const rt__f3 light = rt__emission(job, hits, p->lanes);
         p->sum =
             rt__vselect(p->lanes, rt__add(p->sum, rt__mul(p->throughput, light)), p->sum);
     }
+}
+
+/* rt__first_look_mis, up to the first glass. Through that it looks straight on, which the
+ * path does not: from there on it goes alone, see rt__step_all. */
+RT__NOINLINE void rt__look_first_mis(const rt__job *job, rt__packet *p, int bounce,
+                                     const rt__finishes *f, rt__m mirror,
+                                     const rt__f3 *points)
+{
+    const rt__m ends = rt__looked(job, p, bounce, mirror) & rt__no(f->glass);
+    rt__f3 direct = rt__mul(p->throughput, *points);
+    if (job->table->emits)
+        direct =
+            rt__add(rt__mul(p->throughput, rt__emission(job, &p->hits, ends)), direct);
+    rt__see_surface(p, ends, f->albedo, direct);
+    p->alone |= p->looking & f->glass;
+    p->looking &= rt__no(p->alone);
 }
 
 /* ... then direct light and the way on. */
@@ -6462,9 +6494,13 @@ RT__NOINLINE void rt__scatter_on(const rt__job *job, rt__packet *p, int bounce,
         job->table, &p->place, rt__leave(hits->point, n, below),
         rt__iselect(below, rt__iselect(known, ~hits->left, nowhere), hits->left));
     p->density = zero;
+    rt__f3 points = rt__vec(zero, zero, zero);
+    if (rt__any(f.aims))
+        points = rt__from_points(job, p, &f, to_eye, rays);
+    if (rt__any(p->looking))
+        rt__look_first_mis(job, p, bounce, &f, mirror, &points);
     p->throughput = rt__vselect(mirror, rt__mul(p->throughput, f.albedo), p->throughput);
     if (rt__any(f.aims)) {
-        const rt__f3 points = rt__from_points(job, p, &f, to_eye, rays);
         const rt__f3 direct = rt__add(points, rt__from_lamps(job, p, &f, to_eye, rays));
         p->sum =
             rt__vselect(f.aims, rt__add(p->sum, rt__mul(p->throughput, direct)), p->sum);
@@ -6476,7 +6512,7 @@ RT__NOINLINE void rt__scatter_on(const rt__job *job, rt__packet *p, int bounce,
             rt__vselect(f.shiny, rt__scale(sent, 1.0f / density), f.albedo);
         p->throughput = rt__vselect(f.aims, rt__mul(p->throughput, part), p->throughput);
         p->density = rt__select(f.aims, density, zero);
-        p->lanes &= rt__no(f.aims) | rt__less(zero, density);
+        p->lanes &= rt__no(f.aims & rt__no(rt__less(zero, density)));
     }
     p->numbers.dimension = numbers.dimension + (rt__u)rt__iselect(mirror, two - 2, two);
     p->from = hits->point;
@@ -6580,6 +6616,7 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     p->sum = rt__vec(zero, zero, zero);
     p->throughput = rt__vec(one, one, one);
     p->looking = guided ? p->lanes : none;
+    p->alone = none;
     p->guide_normal = p->guide_point = p->guide_albedo = p->guide_direct = p->sum;
     p->hits.point = rt__vall(film->position);
     p->hits.normal = p->sum;
@@ -6612,18 +6649,19 @@ RT__INLINE uint64_t rt__step_all(const rt__job *job, int sample, int first, int 
     for (int i = first; i < last;) {
         int count = 0;
         for (int from = i; count < RT__FLIGHT && from < last; from += RT__LANES)
-            rt__begin(job, sample, from, last, guides != NULL && !part_two,
-                      &packets[count++]);
+            rt__begin(job, sample, from, last, guides != NULL, &packets[count++]);
         rays += part_two ? rt__trace_mis(job, packets, count, watch)
                          : rt__trace(job, packets, count, watch);
-        for (int k = 0; k < count; k++)
+        for (int k = 0; k < count; k++) {
+            const unsigned alone = rt__bits(packets[k].looking | packets[k].alone);
             for (int lane = 0; lane < RT__LANES && i < last; lane++, i++) {
                 values[i - first] = rt__lane(&packets[k].sum, lane);
                 if (guides)
-                    guides[i - first] = part_two
+                    guides[i - first] = (alone >> lane & 1u) != 0
                                             ? rt__guide(job, i, rt__start(job, sample, i))
                                             : rt__guide_of(&packets[k], lane);
             }
+        }
     }
     return rays;
 }

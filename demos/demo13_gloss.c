@@ -47,7 +47,7 @@ static rt_vec3 sample_gloss(rt_vec3 N, rt_vec3 eye, float shininess, float r1, f
     const float a = sqrtf(roughness_squared(shininess));
     rt_vec3 x, y;
     rt_basis(N, &x, &y);
-    /* stretched by 1/a along the surface, the facets are those of a hemisphere */
+    /* stretched by 1/a along N, the facets are those of a hemisphere */
     const rt_vec3 v =
         unit(rt_vec(a * rt_dot(x, eye), a * rt_dot(y, eye), rt_dot(N, eye)));
     float sine, cosine;

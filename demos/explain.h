@@ -60,7 +60,8 @@ static void print_vertex(demo_text *out, const rt_scene *scene, const rt_path *p
     text_add(out, "  +- %s %s", n == 0 ? "camera ray meets" : "goes on to",
              lamp ? "the lamp" : shape_name(scene, v->shape));
     if (lamp) {
-        text_add(out, n == 0 ? "" : ", by chance, weight %.3f", (double)v->weight);
+        if (n > 0)
+            text_add(out, ", by chance, weight %.3f", (double)v->weight);
         print_vec(out, ", sends ", v->light, "");
     } else if (v->shape < 0) {
         print_vec(out, scene->sky ? ", sky " : ", background ", v->light, "");

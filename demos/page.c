@@ -77,7 +77,7 @@ int EXPORT(page_start)(int width, int height)
 /* All that a worker has to know. Plain numbers, the same in every instance. */
 static struct wish {
     int stage, comparison, denoise, shrink, bounces, lanes, sampler;
-    float gamma;
+    float gamma, exposure;
     unsigned char room[DEMO_STATE];
 } wish;
 
@@ -91,6 +91,7 @@ struct wish *EXPORT(page_wish)(void)
     wish.lanes = v.options.lanes;
     wish.sampler = (int)v.options.sampler;
     wish.gamma = v.gamma;
+    wish.exposure = v.exposure;
     the_demo->live->save(wish.room);
     return &wish;
 }
@@ -111,12 +112,28 @@ void EXPORT(page_obey)(void)
     v.options.lanes = wish.lanes;
     v.options.sampler = (rt_sampler)wish.sampler;
     v.gamma = wish.gamma;
+    v.exposure = wish.exposure;
     the_demo->live->load(wish.room);
 }
 
 int EXPORT(page_stage)(void)
 {
     return v.stage;
+}
+
+int EXPORT(page_chapter)(int stage)
+{
+    return viewer_chapter(stage);
+}
+
+const char *EXPORT(page_stage_name)(int stage)
+{
+    return viewer_stage_name(stage);
+}
+
+float EXPORT(page_exposure)(void)
+{
+    return v.exposure;
 }
 
 int EXPORT(page_samples)(void)
@@ -165,6 +182,11 @@ void EXPORT(page_set_bounces)(int bounces)
     viewer_set_bounces(&v, bounces);
 }
 
+void EXPORT(page_set_exposure)(float stops)
+{
+    viewer_set_exposure(&v, stops);
+}
+
 void EXPORT(page_set_gamma)(float gamma)
 {
     v.gamma = gamma;
@@ -201,14 +223,24 @@ void EXPORT(page_let_go)(void)
     v.button = BUTTON_NONE;
 }
 
-void EXPORT(page_wheel)(float notches)
-{
-    viewer_wheel(&v, notches);
-}
-
 void EXPORT(page_key)(int key)
 {
     viewer_key(&v, key, false);
+}
+
+/* The thing's size, gloss or whatever it has; of the camera, how near it is. */
+void EXPORT(page_tune)(int thing, float notches)
+{
+    viewer_tune(&v, thing, notches);
+}
+
+/* What the thing is now, if it can be tuned. */
+const char *EXPORT(page_thing)(int thing)
+{
+    static char words[80];
+    demo_text out = text_in(words, sizeof words);
+    the_demo->live->say(v.stage, thing, &out);
+    return words;
 }
 
 int EXPORT(page_pick)(float x, float y)

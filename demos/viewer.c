@@ -378,16 +378,15 @@ void viewer_wheel(viewer *v, float notches)
 {
     if (!v->d->live)
         return;
-    const int thing = v->d->live->pick(v->stage, &v->view, v->mouse_x, v->mouse_y);
-    if (thing == 0 || !v->d->live->tune(v->stage, thing, notches))
-        v->d->live->zoom(powf(0.9f, notches));
-    change(v);
+    viewer_tune(v, v->d->live->pick(v->stage, &v->view, v->mouse_x, v->mouse_y), notches);
 }
 
 void viewer_tune(viewer *v, int thing, float notches)
 {
-    if (v->d->live->tune(v->stage, thing, notches))
-        change(v);
+    v->tuned = v->d->live->tune(v->stage, thing, notches) ? thing : 0;
+    if (v->tuned == 0)
+        v->d->live->zoom(powf(0.9f, notches));
+    change(v);
 }
 
 void viewer_set_samples(viewer *v, int samples)
@@ -398,6 +397,7 @@ void viewer_set_samples(viewer *v, int samples)
 
 void viewer_set_stage(viewer *v, int stage)
 {
+    v->tuned = 0;
     v->stage = stage < 1 ? 1 : stage < VIEWER_STAGES ? stage : VIEWER_STAGES;
     change(v);
 }
@@ -431,6 +431,7 @@ static void reset(viewer *v)
     v->samples = wanted_samples(v);
     v->gamma = 0.0f;
     v->exposure = v->first_exposure;
+    v->tuned = 0;
     v->glass = v->help = v->side = false;
     v->comparison = v->denoise ? NOISY : BEFORE;
     change(v);
@@ -694,6 +695,10 @@ void viewer_say_stage(const viewer *v, demo_text *out)
     if (v->d->live)
         text_add(out, "%d %s%s, ", viewer_chapter(v->stage), viewer_stage_name(v->stage),
                  is_own(v, v->stage) ? " (the demo's)" : "");
+    if (v->tuned != 0) {
+        v->d->live->say(v->stage, v->tuned, out);
+        text_add(out, ", ");
+    }
     if (v->exposure != 0.0f)
         text_add(out, "exposure %+g, ", (double)v->exposure);
     if (v->hold)

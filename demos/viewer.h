@@ -71,6 +71,7 @@ typedef struct viewer {
     int drafts;                /* so far, and for so many seconds */
     double drafts_took;
     int button, thing; /* what is held by the pointer */
+    int tuned;         /* the thing that the wheel has changed last */
     bool dragged;      /* since the button went down: it will be no click */
     float down_x, down_y;
 } viewer;
@@ -106,7 +107,8 @@ void viewer_set_exposure(viewer *v, float stops);
 void viewer_inspect(viewer *v, int x, int y);
 /* Move a thing, or 0, the camera, by one step. */
 void viewer_nudge(viewer *v, int thing, float right, float up, bool over_the_floor);
-/* Its gloss, size or whatever it has: more or less of it. */
+/* Its gloss, size or whatever it has, more or less of it; if it has nothing, the camera comes
+ * nearer. */
 void viewer_tune(viewer *v, int thing, float notches);
 
 /* ---- what is to be done ------------------------------------------------------------- */

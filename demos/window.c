@@ -391,7 +391,10 @@ void window_poll(window *w, viewer *v)
 
 void window_wait(window *w, int milliseconds)
 {
-    SDL_WaitEventTimeout(NULL, milliseconds);
+    /* not SDL_WaitEventTimeout: in SDL 2.26 it may call upon a window that is gone, and then
+     * X ends the program */
+    for (int i = 0; i < milliseconds && !SDL_PollEvent(NULL); i += 4)
+        SDL_Delay(4);
     w->polled = 0.0;
 }
 

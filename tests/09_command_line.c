@@ -21,7 +21,7 @@ static void test_all_write_a_png_to_build(void **state)
 {
     (void)state;
     assert_int_equal(mkdir("build", 0777), 0);
-    for (int i = 1; i <= 10; i++) {
+    for (int i = 1; i <= 15; i++) {
         static unsigned char bytes[100000];
         char arguments[100], path[40];
         snprintf(arguments, sizeof arguments, "demo%02d 40 30 --samples 2 --no-window",
@@ -235,18 +235,22 @@ static rt_vec3 next_vec(const char **text)
     return rt_vec(v[0], v[1], v[2]);
 }
 
-static void test_explain_adds_up_to_the_pixel(void **state)
+static void explain_adds_up(const char *demo, int bounces)
 {
-    (void)state;
     const int pixels[5][2] = {{0, 0}, {39, 29}, {20, 15}, {12, 18}, {25, 16}};
-    expect(0, "", "demo07 40 30 --samples 3 --quiet --out e.pfm");
+    char command[100], began[100];
+    snprintf(command, sizeof command,
+             "%s 40 30 --samples 3 --quiet --no-denoise --out e.pfm", demo);
+    snprintf(began, sizeof began,
+             "3 samples, %d bounces|sample 0|sample 2|camera ray meets|mean: ", bounces);
+    expect(0, "", command);
     rt_vec3 *picture = read_pfm("e.pfm", 40, 30);
     for (int i = 0; i < 5; i++) {
         char arguments[100];
-        snprintf(arguments, sizeof arguments, "demo07 40 30 --samples 3 --explain %d,%d",
-                 pixels[i][0], pixels[i][1]);
-        expect(0, "3 samples, 5 bounces|sample 0|sample 2|camera ray meets|mean: ",
-               arguments);
+        snprintf(arguments, sizeof arguments,
+                 "%s 40 30 --samples 3 --no-denoise --explain %d,%d", demo, pixels[i][0],
+                 pixels[i][1]);
+        expect(0, began, arguments);
         rt_vec3 sum = {0, 0, 0}, mean = {0, 0, 0};
         int samples = 0, points = 0;
         for (const char *line = said; line; line = strchr(line, '\n')) {
@@ -269,9 +273,20 @@ static void test_explain_adds_up_to_the_pixel(void **state)
             }
         }
         assert_int_equal(samples, 3);
-        assert_in_range(points, 3, 18);
+        assert_in_range(points, 3, 3 * (bounces + 2));
     }
     free(picture);
+}
+
+static void test_explain_adds_up_to_the_pixel(void **state)
+{
+    (void)state;
+    explain_adds_up("demo07", 5);
+    explain_adds_up("demo11", 8);
+    explain_adds_up("demo13", 8);
+    explain_adds_up("demo14", 8);
+    expect(0, "glass: refracted, in", "demo11 40 30 --samples 3 --explain 21,23");
+    expect(0, "aimed at, weight", "demo12 40 30 --samples 3 --explain 12,18");
     expect(2, "--explain: 40,0 is not in a picture of 40 x 30",
            "demo07 40 30 --explain 40,0");
     expect(2, "--explain: '7' is not a pixel", "demo08 --explain 7");
@@ -279,6 +294,41 @@ static void test_explain_adds_up_to_the_pixel(void **state)
     expect(2, "--explain: '1,2,3' is not a pixel", "demo09 --explain 1,2,3");
     expect(2, "--explain: '' is not a pixel", "demo09 --explain");
     expect(2, "--explain: chapter 7 and later", "demo06 --explain 1,2");
+}
+
+static void test_exposure_doubles_light_and_not_the_pfm(void **state)
+{
+    (void)state;
+    expect(0, "", "demo05 20 15 --samples 1 --quiet --no-window --out e0.pfm");
+    expect(0, "",
+           "demo05 20 15 --samples 1 --quiet --no-window --exposure -1.5 --out e1.pfm");
+    expect(0, "", "demo05 20 15 --samples 1 --quiet --no-window --out e0.png");
+    expect(0, "",
+           "demo05 20 15 --samples 1 --quiet --no-window --exposure -1.5 --out e1.png");
+    assert_int_equal(run("cmp -s e0.pfm e1.pfm"), 0); /* that is light, as it is */
+    assert_int_not_equal(run("cmp -s e0.png e1.png"), 0);
+    expect(2, "--exposure: a number is missing", "demo05 --exposure");
+    expect(2, "--exposure: 'bright' is not a number of stops, -20 to 20",
+           "demo05 --exposure bright");
+    expect(2, "--exposure: '21' is not", "demo05 --exposure 21");
+    expect(2, "--exposure: '-' is not", "demo05 --exposure -");
+    expect(2, "--exposure: 'nan' is not", "demo05 --exposure nan");
+}
+
+static void test_a_texture_is_wrapped_around_the_ball(void **state)
+{
+    (void)state;
+    expect(0, "", "demo05 20 20 --samples 1 --quiet --no-window --out t.png");
+    expect(0, "", "demo15 40 30 --samples 2 --quiet --no-window --out p0.png");
+    expect(0, "",
+           "demo15 40 30 --samples 2 --quiet --no-window --texture t.png --out p1.png");
+    assert_int_not_equal(run("cmp -s p0.png p1.png"), 0);
+    expect(1, "demo15: cannot read 'none.png' as PNG or JPEG: can't fopen",
+           "demo15 --texture none.png");
+    assert_int_equal(run("echo hello >none.png"), 0);
+    expect(1, "cannot read 'none.png' as PNG or JPEG", "demo15 --texture none.png");
+    expect(2, "--texture: a file name is missing", "demo15 --texture");
+    expect(2, "--texture: only chapter 15 can do that", "demo14 --texture t.png");
 }
 
 static void test_without_a_display_it_says_so_and_goes_on(void **state)
@@ -558,6 +608,8 @@ int main(void)
         cmocka_unit_test(test_chapter_8_times_its_loops),
         cmocka_unit_test(test_chapter_9_counts_its_points),
         cmocka_unit_test(test_explain_adds_up_to_the_pixel),
+        cmocka_unit_test(test_exposure_doubles_light_and_not_the_pfm),
+        cmocka_unit_test(test_a_texture_is_wrapped_around_the_ball),
         cmocka_unit_test(test_without_a_display_it_says_so_and_goes_on),
         cmocka_unit_test(test_plain_lines_when_piped),
         cmocka_unit_test(test_bounces_where_there_are_none),

@@ -1,4 +1,4 @@
-/* Eighty bad or odd inputs, each with what is documented to happen. The numbers are those of
+/* A hundred bad or odd inputs, each with what is documented to happen. The numbers are those of
  * the table in docs/correctness.md. */
 #define _XOPEN_SOURCE 700 /* mkdtemp, popen, realpath, symlink, nftw */
 #include "../demos/scene.h"
@@ -809,6 +809,395 @@ static void small_stacks(void)
           "--threads 4 --no-window --out t.png");
 }
 
+/* ---- 81 to 100: part two ------------------------------------------------------------ */
+
+/* A ball and a cube, with a surface each, a lamp, a light, a sky or not; rendered with packets and
+ * without, which is the same picture, of moderate numbers. */
+static rt_sphere two_ball;
+static rt_box two_cube;
+static rt_surface two_surfaces[2];
+static rt_lamp two_lamps[2];
+static rt_lens two_lens;
+static rt_camera two_camera;
+static rt_scene two;
+
+static void part_two(void)
+{
+    static const rt_light light = {{3, 4, -2}, {50, 50, 50}};
+    const rt_lamp round = {.center = {-2, 3, -4}, .radius = 0.5f, .intensity = {9, 9, 9}};
+    const rt_lamp flat = {
+        .center = {2, 3, -5}, .u = {1, 0, 0}, .v = {0, 0, 1}, .intensity = {9, 9, 9}};
+    const rt_box floor = {{-20, -2, -20}, {20, -1, 20}, {{0.8f, 0.8f, 0.8f}, false}};
+    memset(two_surfaces, 0, sizeof two_surfaces);
+    memset(&two_lens, 0, sizeof two_lens);
+    memset(&two_camera, 0, sizeof two_camera);
+    memset(&two, 0, sizeof two);
+    two_ball = ball;
+    two_ball.material.albedo = rt_vec(0.9f, 0.5f, 0.2f);
+    two_cube = floor;
+    two_lamps[0] = round;
+    two_lamps[1] = flat;
+    two.spheres = &two_ball;
+    two.sphere_count = 1;
+    two.boxes = &two_cube;
+    two.box_count = 1;
+    two.lights = &light;
+    two.light_count = 1;
+    two.background = rt_vec(0.2f, 0.3f, 0.4f);
+    two.surfaces = two_surfaces;
+    two.lamps = two_lamps;
+    two.lamp_count = 2;
+}
+
+static rt_status render_two(void)
+{
+    rt_vec3 alone[COUNT(picture)];
+    rt_options options = {.samples = 16, .bounces = 6, .lens = two_lens, .lanes = 1};
+    const rt_status status = render(&two, &two_camera, options);
+    memcpy(alone, picture, sizeof alone);
+    options.lanes = 0;
+    assert_int_equal(render(&two, &two_camera, options), status);
+    if (status != RT_OK)
+        return status;
+    assert_memory_equal(alone, picture, sizeof alone);
+    for (size_t i = 0; i < COUNT(picture); i++)
+        assert_true(picture[i].x >= 0 && picture[i].x <= FLT_MAX && picture[i].y >= 0 &&
+                    picture[i].y <= FLT_MAX && picture[i].z >= 0 &&
+                    picture[i].z <= FLT_MAX);
+    return status;
+}
+
+/* Each of the numbers in this place of the scene is refused, and it is told of which. */
+static void refused(float *number, const float *bad, size_t count, rt_status expected,
+                    int where)
+{
+    const float good = *number;
+    assert_int_equal(rt_check_scene(&two, NULL), RT_OK);
+    for (size_t i = 0; i < count; i++) {
+        int index = -7;
+        *number = bad[i];
+        if (rt_check_scene(&two, &index) != expected || index != where)
+            fail_msg("%g: %s, index %d", (double)bad[i],
+                     rt_status_text(rt_check_scene(&two, &index)), index);
+        assert_int_equal(render_two(), expected);
+    }
+    *number = good;
+}
+
+static void bad_eta(void)
+{
+    part_two();
+    const float bad[] = {0.5f, 0.999f, 1e-30f, 4.001f, 1e30f, -1, -1.5f, nan_, inf, -inf};
+    refused(&two_surfaces[0].eta, bad, COUNT(bad), RT_BAD_SURFACE, 0);
+    refused(&two_surfaces[1].eta, bad, COUNT(bad), RT_BAD_SURFACE, 1);
+    const float good[] = {0, -0.0f, 1, 4};
+    for (size_t i = 0; i < COUNT(good); i++) {
+        two_surfaces[0].eta = good[i];
+        assert_int_equal(render_two(), RT_OK);
+    }
+}
+
+static void bad_shininess(void)
+{
+    part_two();
+    const float bad[] = {-1, -1e-30f, 1.001e6f, nan_, inf, -inf};
+    refused(&two_surfaces[0].shininess, bad, COUNT(bad), RT_BAD_SURFACE, 0);
+    refused(&two_surfaces[1].shininess, bad, COUNT(bad), RT_BAD_SURFACE, 1);
+}
+
+static void bad_absorption_and_emission(void)
+{
+    part_two();
+    const float bad[] = {-1, -1e-30f, 1.001e15f, nan_, inf, -inf};
+    rt_surface *s = two_surfaces;
+    float *const numbers[] = {&s[0].absorption.x, &s[0].absorption.y, &s[0].absorption.z,
+                              &s[1].absorption.z, &s[0].emission.x,   &s[0].emission.y,
+                              &s[0].emission.z,   &s[1].emission.x};
+    for (size_t i = 0; i < COUNT(numbers); i++)
+        refused(numbers[i], bad, COUNT(bad), RT_BAD_SURFACE, i == 3 || i == 7);
+}
+
+static void lamp_without_an_area(void)
+{
+    const rt_vec3 sides[][2] = {{{0, 0, 0}, {0, 0, 0}},
+                                {{1, 0, 0}, {0, 0, 0}},
+                                {{1, 2, 3}, {1, 2, 3}},
+                                {{1, 2, 3}, {-2, -4, -6}},
+                                {{1e-7f, 0, 0}, {0, 1e-7f, 0}}};
+    for (size_t i = 0; i < COUNT(sides); i++)
+        for (int k = 0; k < 2; k++) {
+            part_two();
+            int index = -7;
+            two_lamps[k].radius = 0;
+            two_lamps[k].u = sides[i][0];
+            two_lamps[k].v = sides[i][1];
+            assert_int_equal(rt_check_scene(&two, &index), RT_BAD_LAMP);
+            assert_int_equal(index, k);
+            assert_int_equal(render_two(), RT_BAD_LAMP);
+        }
+}
+
+static void bad_lamp_radius(void)
+{
+    part_two();
+    const float bad[] = {-1, -1e-30f, 1e-30f, 1e-7f, 1.001e15f, nan_, inf, -inf};
+    refused(&two_lamps[0].radius, bad, COUNT(bad), RT_BAD_LAMP, 0);
+    refused(&two_lamps[1].radius, bad, COUNT(bad), RT_BAD_LAMP, 1);
+    two_lamps[0].radius = 1e-6f;
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static void bad_lamp_numbers(void)
+{
+    part_two();
+    const float bad[] = {1.001e15f, nan_, inf, -inf}, negative[] = {-1, -1e-30f};
+    rt_lamp *l = two_lamps;
+    float *const numbers[] = {&l[0].center.x, &l[1].center.y,    &l[0].center.z,
+                              &l[0].u.x,      &l[1].u.y,         &l[1].v.z,
+                              &l[0].v.y,      &l[0].intensity.x, &l[1].intensity.y};
+    const int where[] = {0, 1, 0, 0, 1, 1, 0, 0, 1};
+    for (size_t i = 0; i < COUNT(numbers); i++)
+        refused(numbers[i], bad, COUNT(bad), RT_BAD_LAMP, where[i]);
+    refused(&l[0].intensity.z, negative, COUNT(negative), RT_BAD_LAMP, 0);
+    refused(&l[1].intensity.x, negative, COUNT(negative), RT_BAD_LAMP, 1);
+}
+
+static void no_array_of_lamps(void)
+{
+    part_two();
+    two.lamps = NULL;
+    assert_int_equal(render_two(), RT_BAD_POINTER);
+    two.lamp_count = -1;
+    assert_int_equal(render_two(), RT_BAD_POINTER);
+    two.lamps = two_lamps;
+    assert_int_equal(render_two(), RT_BAD_POINTER);
+    two.lamps = NULL;
+    two.lamp_count = 0;
+    two.surfaces = NULL;
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static void bad_lens_radius(void)
+{
+    part_two();
+    const float bad[] = {-1, -1e-30f, 1.001e15f, nan_, inf, -inf};
+    for (size_t i = 0; i < 2 * COUNT(bad); i++) {
+        two_lens.radius = bad[i / 2];
+        two_lens.focus = i % 2 ? 5 : 0;
+        assert_int_equal(render_two(), RT_BAD_LENS);
+    }
+}
+
+static void bad_lens_focus(void)
+{
+    part_two();
+    const float bad[] = {0, -1, -1e-30f, 1.001e15f, nan_, inf, -inf};
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        two_lens.focus = bad[i];
+        two_lens.radius = 1e-30f;
+        assert_int_equal(render_two(), RT_BAD_LENS);
+        two_lens.radius = 0; /* a pinhole has no focus */
+        assert_int_equal(render_two(), RT_OK);
+    }
+}
+
+static void camera_inside_glass(void)
+{
+    part_two();
+    two_surfaces[0].eta = 1.5f;
+    two_surfaces[0].absorption = rt_vec(0, 1, 1e15f);
+    two_camera.position = two_ball.center;
+    assert_int_equal(render_two(), RT_OK);
+    assert_true(picture[5].x > 0.01f && picture[5].y < picture[5].x);
+    assert_vec(picture[5], picture[5].x, picture[5].y, 0, 0);
+    two_camera.position.z += two_ball.radius; /* in its surface */
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static void glass_in_one_place(void)
+{
+    part_two();
+    const rt_sphere same[3] = {two_ball, two_ball, two_ball};
+    const rt_surface glass[4] = {{.eta = 1.5f}, {.eta = 1.3f}, {.eta = 4}, {.eta = 0}};
+    two.spheres = same;
+    two.sphere_count = 3;
+    two.surfaces = glass;
+    assert_int_equal(render_two(), RT_OK);
+    assert_true(picture[5].x > 0);
+    two_lens.radius = 0.1f;
+    two_lens.focus = 4;
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static void glass_in_glass(void)
+{
+    part_two();
+    const rt_sphere outer = {{0, 0, -5}, 2.5f, {{0, 0, 0}, false}};
+    const rt_box boxes[3] = {
+        cube, two_cube, {{-1, 0, -9}, {1, 0, -2}, {{0, 0, 0}, false}}};
+    const rt_surface glass[4] = {{.eta = 1.5f}, {.eta = 2.4f}, {.eta = 0}, {.eta = 1.5f}};
+    two.spheres = &outer;
+    two.boxes = boxes;
+    two.box_count = 3;
+    two.surfaces = glass;
+    assert_int_equal(render_two(), RT_OK);
+    assert_true(picture[5].x > 0);
+    two_camera.position = rt_vec(0, 0, -5);
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static void lamp_in_a_wall(void)
+{
+    part_two();
+    two.background = zero;
+    two.light_count = 0;
+    two_lamps[0].center = rt_vec(0, -1.5f, -5); /* in the floor's box, unseen */
+    two_lamps[0].radius = 0.25f;
+    two_lamps[1].center = rt_vec(0, -1.5f, -5);
+    assert_int_equal(render_two(), RT_OK);
+    for (size_t i = 0; i < COUNT(picture); i++)
+        assert_true(rt_is_zero(picture[i]));
+    two_lamps[0].center.y = two_lamps[1].center.y = -1; /* half in it; in its face */
+    assert_int_equal(render_two(), RT_OK);
+    two_lamps[0].center = two_ball.center; /* in the ball, of its size, and larger */
+    two_lamps[0].radius = 1;
+    assert_int_equal(render_two(), RT_OK);
+    two_lamps[0].radius = 1.5f;
+    assert_int_equal(render_two(), RT_OK);
+    assert_true(picture[5].x > 0.1f);
+}
+
+static void camera_inside_a_lamp(void)
+{
+    part_two();
+    two_lamps[0].center = zero;
+    const float l = rt_lamp_radiance(&two_lamps[0]).x;
+    assert_int_equal(render_two(), RT_OK);
+    for (size_t i = 0; i < COUNT(picture); i++)
+        assert_vec(picture[i], l, l, l, 1e-5 * (double)l);
+    two_lamps[1].center = zero; /* in the plane of the other */
+    two_lamps[0].center = rt_vec(9, 9, 9);
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static void lamp_around_all(void)
+{
+    part_two();
+    two_lamps[0].center = zero;
+    two_lamps[0].radius = 1000;
+    two_lamps[0].intensity = rt_vec(3.14159265e6f, 0, 0);
+    two_surfaces[0].shininess = 50;
+    assert_int_equal(render_two(), RT_OK);
+    assert_true(picture[0].x > 0.5f && picture[0].x < 3);
+    two_lamps[1] = two_lamps[0]; /* two in one place: either */
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static rt_vec3 odd_numbers(const void *data, rt_vec3 a, rt_vec3 b)
+{
+    (void)a;
+    (void)b;
+    return *(const rt_vec3 *)data;
+}
+
+static rt_vec3 odd_sky(const void *data, rt_vec3 direction)
+{
+    (void)direction;
+    return *(const rt_vec3 *)data;
+}
+
+static const rt_vec3 odd[] = {{NAN, NAN, NAN},
+                              {-1, -1e30f, -INFINITY},
+                              {1e30f, INFINITY, 1e38f},
+                              {NAN, -1, INFINITY},
+                              {1e-40f, -1e-40f, 1.0001f}};
+
+static void odd_patterns(void)
+{
+    for (size_t i = 0; i < COUNT(odd); i++)
+        for (int k = 0; k < 6; k++) {
+            part_two();
+            for (int n = 0; n < 2; n++) {
+                two_surfaces[n].pattern = odd_numbers;
+                two_surfaces[n].pattern_data = &odd[i];
+                two_surfaces[n].shininess = k / 2 == 0 ? 0 : k / 2 == 1 ? 10 : 1e6f;
+            }
+            two_ball.material.mirror = two_cube.material.mirror = k % 2 != 0;
+            assert_int_equal(render_two(), RT_OK);
+        }
+}
+
+static void odd_skies(void)
+{
+    for (size_t i = 0; i < COUNT(odd); i++) {
+        part_two();
+        two.sky = odd_sky;
+        two.sky_data = &odd[i];
+        two_surfaces[0].eta = 1.5f;
+        assert_int_equal(render_two(), RT_OK);
+        for (size_t k = 0; k < COUNT(picture); k++)
+            assert_true(picture[k].x <= 1.001e15f && picture[k].y <= 1.001e15f);
+        /* no table and no lamps: the sky alone */
+        two.surfaces = NULL;
+        two.lamp_count = 0;
+        assert_int_equal(render_two(), RT_OK);
+    }
+}
+
+static void lens_far_off(void)
+{
+    const float sizes[] = {1e15f, 1e8f, 1, 1e-30f, 1e-45f};
+    for (int i = 0; i < 25; i++) {
+        part_two();
+        two_lens.radius = sizes[i % 5];
+        two_lens.focus = sizes[i / 5];
+        assert_int_equal(render_two(), RT_OK);
+        two_camera.position = rt_vec(1e15f, -1e15f, 1e15f);
+        two_camera.direction = rt_vec(-1, 1, -1);
+        two_camera.fov_y = i % 2 ? 179.99f : 1e-20f;
+        assert_int_equal(render_two(), RT_OK);
+    }
+}
+
+static void surfaces_at_their_limits(void)
+{
+    const rt_surface limits[] = {
+        {.eta = 4, .absorption = {1e15f, 1e-30f, 0}},
+        {.eta = 1, .shininess = 1e6f, .absorption = {1e-40f, 1, 0}},
+        {.shininess = 1e6f},
+        {.shininess = 1e-40f},
+        {.emission = {1e15f, 1e-40f, 0}},
+        {.shininess = 1e6f, .emission = {1e15f, 1e15f, 1e15f}},
+    };
+    for (size_t i = 0; i < 2 * COUNT(limits); i++) {
+        part_two();
+        two_surfaces[0] = limits[i / 2];
+        two_surfaces[1] = limits[(i / 2 + 1) % COUNT(limits)];
+        two_ball.material.mirror = i % 2 != 0;
+        two_lamps[0].intensity = rt_vec(1e15f, 1e15f, 1e15f);
+        two_lamps[0].radius = i % 4 < 2 ? 1e-6f : 0.5f;
+        assert_int_equal(render_two(), RT_OK);
+    }
+}
+
+static void part_two_of_nothing(void)
+{
+    part_two();
+    two.sphere_count = two.box_count = two.light_count = 0;
+    assert_int_equal(render_two(), RT_OK);
+    two.lamp_count = 0;
+    assert_int_equal(render_two(), RT_OK);
+    assert_vec(picture[5], two.background.x, two.background.y, two.background.z, 1e-6);
+    two.spheres = NULL;
+    two.boxes = NULL;
+    two.lights = NULL;
+    two.lamps = NULL;
+    two.sky = odd_sky;
+    two.sky_data = &ahead;
+    assert_int_equal(render_two(), RT_OK);
+    assert_vec(picture[5], 0, 0, 0, 0);
+}
+
 /* ---- the table ---------------------------------------------------------------------- */
 
 static const struct row {
@@ -895,6 +1284,26 @@ static const struct row {
     {"78 macros min, max, near, far, PI, I: compiles", macros_of_others},
     {"79 -m32: works", thirty_two_bits},
     {"80 stacks of 512 kB: enough", small_stacks},
+    {"81 eta below 1, above 4, negative, NaN: refused", bad_eta},
+    {"82 shininess negative, above 1e6, NaN: refused", bad_shininess},
+    {"83 absorption, emission negative, NaN: refused", bad_absorption_and_emission},
+    {"84 lamp without radius and area: refused", lamp_without_an_area},
+    {"85 lamp's radius negative, below 1e-6, NaN: refused", bad_lamp_radius},
+    {"86 lamp's other numbers infinite, NaN: refused", bad_lamp_numbers},
+    {"87 lamp_count negative, or no array: refused", no_array_of_lamps},
+    {"88 lens' radius negative, NaN: refused", bad_lens_radius},
+    {"89 lens' focus 0, negative, NaN: refused", bad_lens_focus},
+    {"90 camera inside glass: a picture", camera_inside_glass},
+    {"91 glass and glass in one place: finite", glass_in_one_place},
+    {"92 glass in glass, and a flat box of it: finite", glass_in_glass},
+    {"93 lamp in a wall: dark; half in it: finite", lamp_in_a_wall},
+    {"94 camera inside a lamp: its radiance", camera_inside_a_lamp},
+    {"95 lamp around all; two in one place: finite", lamp_around_all},
+    {"96 pattern NaN, negative, 1e30: 0, 0, 1", odd_patterns},
+    {"97 sky NaN, negative, 1e30: 0, 0, 1e15", odd_skies},
+    {"98 lens of 1e15, and of 1e-45: finite", lens_far_off},
+    {"99 surfaces at their limits: finite", surfaces_at_their_limits},
+    {"100 surfaces, lamps or sky of no shapes: a picture", part_two_of_nothing},
 };
 
 static void check_row(void **state)

@@ -1,4 +1,4 @@
-/* The last section of rt.h: packets of rays make the picture that chapters 1 to 7 make, to the
+/* The last section of rt.h: packets of rays make the picture that the chapters make, to the
  * bit. Compiled with RT_NO_PACKETS, this is a program that says what it makes without. */
 #define _XOPEN_SOURCE 700 /* scandir, mkstemp, popen */
 #ifdef RT_NO_PACKETS
@@ -57,6 +57,8 @@ typedef struct picture {
     rt_camera camera;
     rt_options options;
     int width, height, first; /* first: number of the first sample */
+    bool guides;
+    int first_pixel, pixel_count; /* of a part; 0, 0: all */
 } picture;
 
 static rt_image draw(const picture *p, int lanes)
@@ -64,6 +66,12 @@ static rt_image draw(const picture *p, int lanes)
     rt_image image = new_image(p->width, p->height);
     rt_options options = p->options;
     image.samples = p->first;
+    image.first = p->first_pixel;
+    image.count = p->pixel_count;
+    if (p->guides) {
+        image.guides = calloc((size_t)(p->width * p->height), sizeof *image.guides);
+        assert_non_null(image.guides);
+    }
     options.lanes = lanes;
     const rt_status status = rt_render(&p->scene, &p->camera, &options, &image);
     if (status != RT_OK)
@@ -98,7 +106,12 @@ static void compare(const picture *p, const char *name, int number)
             fail_msg("%s %d: %llu rays, with %d lanes %llu", name, number,
                      (unsigned long long)expected.rays, lanes,
                      (unsigned long long)image.rays);
+        for (int i = 0; p->guides && i < count; i++)
+            if (memcmp(&expected.guides[i], &image.guides[i], sizeof *image.guides) != 0)
+                fail_msg("%s %d: pixel (%d, %d), with %d lanes another guide", name,
+                         number, i % p->width, i / p->width, lanes);
         free(image.pixels);
+        free(image.guides);
     }
     for (int i = 0; i < count; i++)
         if (expected.pixels[i].x > 0) {
@@ -106,6 +119,7 @@ static void compare(const picture *p, const char *name, int number)
             break;
         }
     free(expected.pixels);
+    free(expected.guides);
 }
 
 static picture picture_of(const rt_scene *scene, const rt_camera *camera)
@@ -499,6 +513,8 @@ typedef struct odd_scene {
     rt_sphere spheres[MOST];
     rt_box boxes[MOST];
     rt_light lights[3];
+    rt_surface surfaces[2 * MOST];
+    rt_lamp lamps[4];
     picture p;
     float scale;
     rt_rng *rng;
@@ -755,6 +771,200 @@ static void test_odd_scenes(void **state)
     assert_true(bright - before > SCENES / 4);
 }
 
+/* ---- part two -------------------------------------------------------------------------- */
+
+/* A pattern and a sky, which are not always what they should be. */
+static rt_vec3 checked(const void *data, rt_vec3 point, rt_vec3 normal)
+{
+    const rt_vec3 p = rt_scale(point, 1 / *(const float *)data);
+    const float sum = floorf(p.x) + floorf(p.y) + floorf(p.z);
+    return rt_vec(fmodf(sum, 2), normal.x, sum > 9 ? NAN : 0.7f);
+}
+
+static rt_vec3 blue(const void *data, rt_vec3 direction)
+{
+    const float up = direction.y * *(const float *)data;
+    return rt_vec(0.5f - up, up > 0.9f ? NAN : 0.5f, direction.z < 0 ? 1 : 0.9f * up);
+}
+
+static rt_surface odd_surface(odd_scene *s)
+{
+    const float etas[] = {1, 1.0001f, 1.33f, 1.5f, 2.4f, 4};
+    rt_rng *rng = s->rng;
+    rt_surface surface;
+    memset(&surface, 0, sizeof surface);
+    const int what = below(rng, 8);
+    if (what < 2)
+        surface.eta = etas[below(rng, (int)COUNT(etas))];
+    if (what < 2 && chance(rng, 0.5f))
+        surface.absorption =
+            rt_vec(powf(10, uniform(rng, -3, 3)) / s->scale, 0.1f / s->scale, 0);
+    if (what > 0 && what < 5)
+        surface.shininess = powf(10, uniform(rng, -1, 6));
+    if (chance(rng, 0.1f))
+        surface.emission = random_colour(rng);
+    if (chance(rng, 0.2f))
+        surface.pattern = checked;
+    surface.pattern_data = &s->scale;
+    return surface;
+}
+
+static rt_lamp odd_lamp(odd_scene *s)
+{
+    rt_rng *rng = s->rng;
+    const float size = s->scale < 1e5f ? s->scale : 1e5f;
+    const float power = size * size * powf(10, uniform(rng, 0, 3));
+    rt_lamp lamp;
+    memset(&lamp, 0, sizeof lamp);
+    lamp.center = some_place(s);
+    lamp.intensity = rt_vec(power, power, chance(rng, 0.1f) ? 0 : power);
+    if (chance(rng, 0.4f)) {
+        const float width = length_of(s, below(rng, 3));
+        const rt_vec3 normal =
+            chance(rng, 0.5f) ? rt_vec(0, -1, 0) : random_direction(rng);
+        rt_basis(normal, &lamp.u, &lamp.v);
+        lamp.u = rt_scale(lamp.u, width);
+        lamp.v = rt_add(rt_scale(lamp.v, length_of(s, 2)), /* askew */
+                        rt_scale(lamp.u, (float)below(rng, 2)));
+        return lamp;
+    }
+    lamp.radius = 0.5f * length_of(s, below(rng, 3));
+    if (chance(rng, 0.3f) && s->p.scene.sphere_count > 0) { /* it touches a sphere */
+        const rt_sphere *sphere = &s->spheres[below(rng, s->p.scene.sphere_count)];
+        const float out = chance(rng, 0.5f) ? sphere->radius + lamp.radius
+                                            : sphere->radius - lamp.radius;
+        lamp.center = rt_add(sphere->center, rt_scale(random_direction(rng), out));
+    }
+    if (chance(rng, 0.1f)) /* a sun */
+        lamp.center = rt_scale(lamp.center, powf(10, uniform(rng, 1, 8)));
+    return lamp;
+}
+
+/* Make it one of part two: at least one of surfaces, lamps, sky and lens. */
+static void add_part_two(odd_scene *s)
+{
+    rt_rng *rng = s->rng;
+    picture *p = &s->p;
+    const int what = 1 + below(rng, 15);
+    for (int i = 0; i < 2 * MOST; i++)
+        s->surfaces[i] = odd_surface(s);
+    if ((what & 1) != 0)
+        p->scene.surfaces = s->surfaces;
+    for (int i = 0; (what & 2) != 0 && i < (chance(rng, 0.7f) ? 1 : 4); i++)
+        s->lamps[p->scene.lamp_count++] = odd_lamp(s);
+    p->scene.lamps = s->lamps;
+    if ((what & 4) != 0)
+        p->scene.sky = blue;
+    p->scene.sky_data = &s->scale;
+    if ((what & 8) != 0) {
+        p->options.lens.radius = 0.1f * length_of(s, below(rng, 3));
+        p->options.lens.focus = length_of(s, below(rng, 3));
+    }
+    if (chance(rng, 0.05f))
+        p->options.bounces = RT_ALL_BOUNCES;
+    p->guides = chance(rng, 0.3f);
+    if (chance(rng, 0.1f)) {
+        p->first_pixel = below(rng, p->width * p->height);
+        p->pixel_count = 1 + below(rng, p->width * p->height - p->first_pixel);
+    }
+}
+
+static void test_odd_scenes_of_part_two(void **state)
+{
+    (void)state;
+    static odd_scene s;
+    const int before = bright;
+    enum { SCENES = 4000 };
+    int compared = 0;
+    for (int i = 0; i < SCENES; i++) {
+        rt_rng rng = rt_rng_start((uint32_t)i, 0, 66);
+        make_odd_scene(&s, &rng);
+        add_part_two(&s);
+        if (rt_check_scene(&s.p.scene, NULL) != RT_OK)
+            continue; /* a lamp farther than 1e15 */
+        compare(&s.p, "odd scene of part two", i);
+        compared++;
+    }
+    print_message("%d odd scenes of part two, %d of them not black\n", compared,
+                  bright - before);
+    assert_true(compared > SCENES * 9 / 10);
+    assert_true(bright - before > SCENES / 2);
+}
+
+/* A room with everything in it, in a size for which packets are meant: few shapes, or so many
+ * that they have a tree. */
+static void test_a_room_of_part_two(void **state)
+{
+    (void)state;
+    enum { BALLS = 700 };
+    static rt_sphere spheres[5 + BALLS];
+    static rt_surface surfaces[5 + BALLS];
+    const float scale = 9;
+    const rt_lamp lamps[] = {{{-4, 26, 19}, 6, {3380, 3380, 3380}, {0, 0, 0}, {0, 0, 0}},
+                             {{0, 39.5f, 0}, 0, {900, 700, 500}, {9, 0, 0}, {3, 0, 7}},
+                             {{30, 0, 10}, 1, {400, 400, 900}, {0, 0, 0}, {0, 0, 0}}};
+    rt_rng rng = rt_rng_start(0, 0, 67);
+    memcpy(spheres, room_spheres + 1, 5 * sizeof *spheres);
+    surfaces[1].pattern = surfaces[3].pattern = checked; /* the ceiling, the floor */
+    for (int i = 0; i < 5; i++)
+        surfaces[i].pattern_data = &scale;
+    for (int i = 5; i < 5 + BALLS; i++) {
+        spheres[i].center = random_point(&rng, 30);
+        spheres[i].radius = uniform(&rng, 0.5f, 3);
+        spheres[i].material.albedo = random_colour(&rng);
+        spheres[i].material.mirror = i % 3 == 0;
+        surfaces[i].shininess = i % 2 == 0 ? powf(10, uniform(&rng, 0, 4)) : 0;
+        surfaces[i].eta = i % 5 == 0 ? 1.5f : 0;
+        surfaces[i].absorption = rt_vec(0.1f, 0, 0.2f);
+        if (i % 7 == 0)
+            surfaces[i].emission = rt_vec(0.3f, 0.2f, 0);
+    }
+    const int before = bright, counts[] = {0, 3, 12, 60, BALLS};
+    for (int i = 0; i < 30; i++) {
+        const rt_scene scene = {.spheres = spheres,
+                                .sphere_count = 5 + counts[i % 5],
+                                .lights = &room_dim_light,
+                                .light_count = i % 2,
+                                .surfaces = surfaces,
+                                .lamps = lamps,
+                                .lamp_count = i % 4};
+        picture p = picture_of(&scene, &room_camera);
+        p.width = 37;
+        p.height = 23;
+        p.guides = i % 3 == 0;
+        p.options.bounces = i % 9;
+        p.options.sampler = i % 7 < 5 ? RT_SOBOL : RT_RANDOM;
+        p.options.lens.radius = i % 8 == 0 ? 2 : 0;
+        p.options.lens.focus = 100;
+        compare(&p, "a room of part two", i);
+    }
+    assert_true(bright - before >= 28);
+}
+
+static void test_guides_behind_dark_mirrors(void **state)
+{
+    /* Which leave so little of the light that the path ends, but not the look. */
+    (void)state;
+    const rt_material dark = {{1e-20f, 1e-20f, 1e-20f}, true};
+    const rt_sphere spheres[] = {{{-1, 0, 0}, 1, dark}, {{1, 0, 0}, 1, dark}};
+    const rt_box box = {{-9, -9, -9}, {9, 9, 9}, grey(0.5f)};
+    const rt_scene scene = {.spheres = spheres,
+                            .sphere_count = 2,
+                            .boxes = &box,
+                            .box_count = 1,
+                            .lights = &room_dim_light,
+                            .light_count = 1};
+    const rt_camera camera = {{0, 0, 4}, {0, 0, -1}, {0, 1, 0}, 0};
+    picture p = picture_of(&scene, &camera);
+    p.guides = true;
+    p.width = p.height = 40;
+    compare(&p, "dark mirrors", 1);
+    p.scene.sky = blue;
+    const float one = 1;
+    p.scene.sky_data = &one;
+    compare(&p, "dark mirrors", 2);
+}
+
 static void test_random_scenes(void **state)
 {
     (void)state;
@@ -874,6 +1084,9 @@ int main(void)
         cmocka_unit_test(test_lights_on_the_surface),
         cmocka_unit_test(test_a_ray_that_grazes_a_mirror),
         cmocka_unit_test(test_odd_scenes),
+        cmocka_unit_test(test_odd_scenes_of_part_two),
+        cmocka_unit_test(test_a_room_of_part_two),
+        cmocka_unit_test(test_guides_behind_dark_mirrors),
         cmocka_unit_test(test_random_scenes),
         cmocka_unit_test(test_huge_scenes),
         cmocka_unit_test(test_lights_next_to_small_spheres_seen_from_afar),

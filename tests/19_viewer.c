@@ -189,6 +189,136 @@ static void test_every_stage_has_its_picture(void **state)
     }
 }
 
+/* What rt_render makes of the scene, is it what is shown? */
+static void shows(const rt_scene *scene, const rt_lens *lens, int stage)
+{
+    rt_vec3 pixels[ALL];
+    rt_image image = {.width = W, .height = H, .pixels = pixels, .half = NULL};
+    rt_options options = {.samples = 4, .bounces = 5, .sampler = RT_RANDOM};
+    if (lens)
+        options.lens = *lens;
+    assert_int_equal(v.stage, stage);
+    assert_int_equal(rt_render(scene, &room_camera, &options, &image), RT_OK);
+    assert_memory_equal(v.image.pixels, pixels, sizeof pixels);
+}
+
+static void test_the_pictures_of_part_two(void **state)
+{
+    (void)state;
+    settle();
+    viewer_key(&v, '8', false);
+    assert_int_equal(settle(), 1);
+    shows(&scene_glass, NULL, 8);
+    viewer_key(&v, '9', false);
+    settle();
+    shows(&scene_lamps, NULL, 9);
+    viewer_key(&v, '0', false);
+    settle();
+    shows(&scene_gloss, NULL, 10);
+    viewer_key(&v, '.', false);
+    settle();
+    shows(&scene_sky, &room_lens, 11);
+    viewer_key(&v, '.', false);
+    viewer_key(&v, '.', false); /* there are no more */
+    settle();
+    shows(&scene_patterns, NULL, 12);
+    viewer_key(&v, ',', false);
+    settle();
+    shows(&scene_sky, &room_lens, 11);
+    viewer_key(&v, '1', false);
+    viewer_key(&v, ',', false);
+    settle();
+    assert_int_equal(v.stage, 1);
+}
+
+/* Where the ball of glass is, the lamp, and the mirror. */
+static const float glass_x = 0.53f * W, glass_y = 0.77f * H, lamp_x = 0.455f * W,
+                   lamp_y = 0.18f * H, mirror_x = 0.54f * W, mirror_y = 0.47f * H;
+
+static void test_the_wheel_changes_what_it_is_over(void **state)
+{
+    (void)state;
+    char words[200];
+    const float z = room_camera.position.z;
+    viewer_move(&v, lamp_x, lamp_y, false);
+    viewer_wheel(&v, 1); /* a point: there is nothing to change, and the camera moves */
+    assert_true(room_camera.position.z < z && room_lamp.radius == 6.0f);
+    live_reset();
+    viewer_set_stage(&v, 9);
+    settle();
+    unsigned char before[ALL * 3];
+    memcpy(before, shown(), sizeof before);
+    viewer_wheel(&v, 2);
+    assert_true(room_camera.position.z == z);
+    assert_true(fabsf(room_lamp.radius - 6.0f * 1.21f) < 1e-4f);
+    assert_int_equal(settle(), 1);
+    assert_memory_not_equal(before, shown(), sizeof before);
+    demo_text out = text_in(words, sizeof words);
+    viewer_say_stage(&v, &out);
+    assert_string_equal(words, "12 lamps, the lamp, radius 7.26, ");
+    viewer_wheel(&v, 100);
+    assert_true(room_lamp.radius == 9.0f); /* it still fits under the ceiling */
+    viewer_wheel(&v, -1000);
+    assert_true(room_lamp.radius == 0.1f);
+    viewer_move(&v, glass_x, glass_y, false);
+    viewer_wheel(&v, -100);
+    assert_true(glass_surfaces[ROOM_GLASS].eta == 1.0f &&
+                pattern_surfaces[ROOM_GLASS].eta == 1.0f);
+    viewer_set_stage(&v, 10);
+    viewer_move(&v, mirror_x, mirror_y, false);
+    viewer_wheel(&v, 1);
+    assert_true(gloss_surfaces[ROOM_MIRROR].shininess > 60.0f);
+    viewer_move(&v, 1, 1, false); /* a wall */
+    viewer_wheel(&v, 1);
+    assert_true(room_camera.position.z < z);
+    viewer_key(&v, 'r', false);
+    assert_true(room_lamp.radius == 6.0f && glass_surfaces[ROOM_GLASS].eta == 1.5f &&
+                gloss_surfaces[ROOM_MIRROR].shininess == 60.0f);
+}
+
+static void test_exposure_is_a_factor(void **state)
+{
+    (void)state;
+    settle();
+    viewer_key(&v, 'e', false);
+    viewer_key(&v, 'e', false); /* a whole stop */
+    const unsigned char *bytes = shown();
+    for (int i = 0; i < ALL; i++)
+        assert_int_equal(bytes[3 * i], demo_gamma(2.0f * v.image.pixels[i].x));
+    viewer_key(&v, 'w', false);
+    viewer_key(&v, 'w', false);
+    bytes = shown();
+    for (int i = 0; i < ALL; i++)
+        assert_int_equal(bytes[3 * i], demo_gamma(v.image.pixels[i].x));
+    viewer_set_exposure(&v, 1e9f);
+    assert_true(v.exposure == 20.0f);
+    viewer_key(&v, 'r', false);
+    assert_true(v.exposure == 0.0f);
+}
+
+/* Paths of part two are told as they happen. */
+static void test_the_path_says_what_happens(void **state)
+{
+    (void)state;
+    static const char *const expected[] = {"refracted, in",    "refracted, out",
+                                           "aimed at, weight", "by chance, weight",
+                                           "by the gloss",     "by the matt body"};
+    static char words[1 << 16];
+    unsigned found = 0;
+    viewer_set_stage(&v, 10);
+    for (v.sample = 0; v.sample < 60; v.sample++)
+        for (int at = 0; at < 2; at++) {
+            demo_text out = text_in(words, sizeof words);
+            v.inspect = true;
+            v.x = (int)(at ? glass_x : mirror_x);
+            v.y = (int)(at ? glass_y : mirror_y);
+            viewer_explain(&v, &out);
+            for (int i = 0; i < 6; i++)
+                found |= strstr(words, expected[i]) ? 1u << i : 0;
+        }
+    assert_int_equal(found, 63);
+}
+
 static void test_held_is_the_chapter_before(void **state)
 {
     (void)state;
@@ -339,7 +469,7 @@ static void test_the_plan_fits(void **state)
     static viewer_line lines[VIEWER_LINES];
     char words[4000];
     for (int side = 0; side <= 1; side++)
-        for (int stage = 1; stage <= 7; stage++) {
+        for (int stage = 1; stage <= VIEWER_STAGES; stage++) {
             demo_text summary = text_in(words, sizeof words);
             viewer_set_stage(&v, stage);
             v.side = side == 1;
@@ -355,7 +485,8 @@ static void test_the_plan_fits(void **state)
             }
             assert_true(outlines > 0 && outlines < count);
             assert_non_null(strstr(words, "the red sphere"));
-            assert_true((strstr(words, "lamp seen") != NULL) == (stage >= 4));
+            if (stage <= VIEWER_INDIRECT)
+                assert_true((strstr(words, "lamp seen") != NULL) == (stage >= 4));
         }
 }
 
@@ -383,6 +514,10 @@ int main(void)
         TEST(test_elsewhere_a_drag_goes_round),
         TEST(test_what_is_pressed_outside_of_the_picture_is_nothing),
         TEST(test_every_stage_has_its_picture),
+        TEST(test_the_pictures_of_part_two),
+        TEST(test_the_wheel_changes_what_it_is_over),
+        TEST(test_exposure_is_a_factor),
+        TEST(test_the_path_says_what_happens),
         TEST(test_held_is_the_chapter_before),
         TEST(test_other_numbers),
         TEST(test_samples_and_bounces_have_limits),

@@ -145,6 +145,9 @@ static void test_no_sampled_direction_misses(void **state)
         const rt_dvec3 off = rt_dsub(rt_to_double(end), rt_to_double(lamp.center));
         const double r = (double)lamp.radius;
         assert_close(sqrt(rt_ddot(off, off)), r, 2e-4 * r + 1e-6 * (d + 20));
+        /* not farther away than where the rays touch that just miss: the near side */
+        assert_true((double)rt_length(ray.direction) <
+                    sqrt((d - r) * (d + r)) + 1e-3 * r + 1e-6 * (d + 20));
         const rt_dvec3 to = rt_dsub(rt_to_double(lamp.center), rt_to_double(point));
         const rt_dvec3 u = rt_dnormalize(rt_to_double(ray.direction));
         const rt_dvec3 beside = rt_dcross(u, to);
@@ -511,6 +514,8 @@ static void test_a_lamp_stands_in_the_way(void **state)
         rt_rng rng = rt_rng_start(0, 0, 0);
         const rt_ray up = ray_of(rt_vec(0, 0.5f, 0), rt_vec(0, 1, 0));
         scene = on_the_floor(two, 2);
+        assert_close(rt_radiance_mis(&scene, &up, 3, &rng).x, 1, 1e-6);
+        scene = on_the_floor(same, 2);
         assert_close(rt_radiance_mis(&scene, &up, 3, &rng).x, 1, 1e-6);
     }
     /* and the light comes back where nothing stands in the way */

@@ -205,6 +205,10 @@ static void test_a_lens_where_there_is_no_camera(void **state)
     const rt_ray none = rt_camera_ray(&camera, 4, 3, 1, 1);
     const rt_ray ray = rt_lens_ray(&camera, &lens, &none, 0.5f, 0.5f);
     assert_vec(ray.direction, 0, 0, 0, 0);
+    const rt_camera ahead = {.fov_y = 60}; /* nor behind one */
+    const rt_ray behind = ray_of(rt_vec(1, 2, 3), rt_vec(0, 0.6f, 0.8f));
+    const rt_ray same = rt_lens_ray(&ahead, &lens, &behind, 0.5f, 0.5f);
+    assert_memory_equal(&same, &behind, sizeof same);
 }
 
 static void test_lenses_that_are_refused(void **state)

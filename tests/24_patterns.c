@@ -231,6 +231,32 @@ static void test_black_of_a_pattern_is_black_on_a_mirror(void **state)
     }
 }
 
+static void test_a_black_pattern_with_any_number_of_lanes(void **state)
+{
+    (void)state;
+    const rt_surface surfaces[2] = {{.pattern = checker},
+                                    {.pattern = checker, .shininess = 100}};
+    for (int k = 0; k < 2; k++) {
+        rt_box mirror = floor_box;
+        mirror.material.mirror = true;
+        rt_scene scene = of_box(&mirror, &surfaces[k]);
+        scene.background = rt_vec(1, 2, 3);
+        const rt_camera camera = {.position = {0, 4, 0}, .direction = {0, -0.5f, -1}};
+        rt_options options = {.samples = 2, .bounces = 2};
+        rt_image a = new_image(40, 20), b = new_image(40, 20);
+        assert_int_equal(rt_render(&scene, &camera, &options, &a), RT_OK);
+        options.lanes = 1;
+        assert_int_equal(rt_render(&scene, &camera, &options, &b), RT_OK);
+        assert_true(same_pixels(&a, &b));
+        int black = 0;
+        for (int i = 0; i < 40 * 20; i++)
+            black += rt_is_zero(b.pixels[i]);
+        assert_in_range(black, 100, 700);
+        free(a.pixels);
+        free(b.pixels);
+    }
+}
+
 static void test_a_coat_shines_over_a_black_pattern(void **state)
 {
     (void)state;
@@ -270,6 +296,7 @@ int main(void)
         cmocka_unit_test(test_light_goes_on_with_the_pattern),
         cmocka_unit_test(test_a_pattern_of_one_colour_is_an_albedo),
         cmocka_unit_test(test_black_of_a_pattern_is_black_on_a_mirror),
+        cmocka_unit_test(test_a_black_pattern_with_any_number_of_lanes),
         cmocka_unit_test(test_a_coat_shines_over_a_black_pattern),
         cmocka_unit_test(test_the_guides_show_the_pattern),
     };

@@ -166,6 +166,7 @@ def expected(demo, *arguments):
 
 SMALL = ("160", "120", "--samples", "4")
 NAMES = ["", "sphere", "walls", "cube", "shadows", "gamma", "mirror", "indirect light"]
+PART_TWO = {11: "glass", 12: "lamps", 13: "gloss", 14: "lens and sky", 15: "patterns"}
 
 
 def test_the_stages_are_the_pictures_of_the_demos(display):
@@ -176,6 +177,34 @@ def test_the_stages_are_the_pictures_of_the_demos(display):
         window.wait(r"%d %s.*, 4 samples, error" % (stage, NAMES[stage]))
         picture, _ = window.save()
         assert picture == expected("demo0%d" % stage, *SMALL), "stage %d" % stage
+    window.end()
+
+
+def test_the_pictures_of_part_two(display):
+    window = Window(display, "demo12", *SMALL)
+    window.wait("4 samples, .*finished")
+    for key, chapter in (("8", 11), ("9", 12), ("0", 13), ("period", 14), ("period", 15)):
+        window.key(key)
+        window.wait(r"%d %s.*, 4 samples, .*finished" % (chapter, PART_TWO[chapter]))
+        picture, _ = window.save()
+        assert picture == expected("demo%d" % chapter, *SMALL), "chapter %d" % chapter
+    window.end()
+
+
+def test_the_wheel_changes_what_it_is_over(display):
+    window = Window(display, "demo13", *SMALL)
+    window.wait("4 samples")
+    for place, words in (((73, 22), "the lamp, radius 6.6"), ((86, 56), "the mirror, shininess 84"),
+                         ((85, 92), "the glass ball, refractive index 1.53")):
+        window.move(*place)
+        window.xdotool("click", "4")
+        window.wait(words)
+    window.key("e")
+    window.wait(r"exposure \+0.5")
+    window.key("r")
+    window.wait(r"gloss[^,]*, 4 samples, .*finished")
+    picture, _ = window.save()
+    assert picture == expected("demo13", *SMALL)
     window.end()
 
 
@@ -289,7 +318,8 @@ def test_the_magnifying_glass_tells_the_truth(display):
 
 
 def test_a_click_says_what_explain_says(display):
-    for demo, x, y in (("demo07", 80, 60), ("demo08", 30, 90), ("demo09", 120, 20)):
+    for demo, x, y in (("demo07", 80, 60), ("demo08", 30, 90), ("demo09", 120, 20),
+                       ("demo11", 85, 92), ("demo13", 86, 56), ("demo14", 85, 92)):
         window = Window(display, demo, *SMALL)
         window.wait("4 samples")
         window.click(x, y)

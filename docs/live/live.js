@@ -10,7 +10,8 @@ const DRAFT = 1, REST = 2; /* as viewer_task */
 const BEFORE = 0, ONE_SAMPLE = 1, BY_RT_H = 2, OTHER_NUMBERS = 3, NOISY = 4; /* as viewer_comparison */
 const KEYS = {ArrowLeft: 256, ArrowRight: 257, ArrowUp: 258, ArrowDown: 259, PageUp: 260, PageDown: 261};
 const PART = 4096; /* pixels, as in page.c */
-const THINGS = ['the camera', 'the ball', 'the mirror', 'the cube', 'the lamp'];
+const THINGS = ['the camera', 'the ball', 'the mirror', 'the cube', 'the lamp', 'the glass ball'];
+const STAGES = [1, 2, 3, 4, 5, 6, 7], ALL_STAGES = [...STAGES, 8, 9, 10, 11, 12]; /* 8 on: part two, see viewer.h */
 
 /* What each chapter has of its own. */
 const chapters = {
@@ -24,6 +25,11 @@ const chapters = {
     demo08: {compare: ONE_SAMPLE, controls: ['samples', 'lanes', 'workers'], chart: 'speed'},
     demo09: {compare: OTHER_NUMBERS, controls: ['samples', 'sampler'], chart: 'error'},
     demo10: {compare: NOISY, controls: ['samples', 'denoise']},
+    demo11: {compare: NOISY, controls: ['samples', 'bounces', 'denoise']},
+    demo12: {compare: NOISY, controls: ['samples', 'bounces', 'denoise']},
+    demo13: {compare: NOISY, controls: ['samples', 'bounces', 'denoise']},
+    demo14: {compare: NOISY, controls: ['samples', 'exposure', 'denoise']},
+    demo15: {compare: NOISY, controls: ['all_stages', 'samples', 'exposure', 'denoise']},
 };
 
 async function bring_to_life(root, name, encoded) {
@@ -389,7 +395,7 @@ async function bring_to_life(root, name, encoded) {
         if (document.activeElement !== canvas)
             return;
         e.preventDefault();
-        ex.page_wheel(-e.deltaY / 100);
+        ex.page_tune(ex.page_pick(...spot(e)), -e.deltaY / 100);
         go();
     }, {passive: false});
     canvas.onkeydown = e => {
@@ -397,7 +403,7 @@ async function bring_to_life(root, name, encoded) {
             return;
         const arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[e.key];
         let key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
-        if (!'123456789+-=[]'.includes(key) && /^Digit[1-7]$/.test(e.code)) /* a French keyboard */
+        if (!'0123456789+-=[]'.includes(key) && /^Digit[0-9]$/.test(e.code)) /* a French keyboard */
             key = e.code[5];
         if (key === 'Escape' || key === 'i') {
             if (!ex.page_inspects())
@@ -413,7 +419,9 @@ async function bring_to_life(root, name, encoded) {
             hold(true);
         } else if (key === 'g') {
             set_gamma(gamma_is === 1 ? 0 : 1);
-        } else if (KEYS[key] || '1234567dlpr[]+-='.includes(key)) {
+        } else if (key === 'e' || key === 'w') {
+            set_exposure(ex.page_exposure() + (key === 'e' ? 0.5 : -0.5));
+        } else if (KEYS[key] || '0123456789,.dlpr[]+-='.includes(key)) {
             ex.page_key(KEYS[key] ?? key.charCodeAt(0));
             if (key === 'r')
                 as_at_first();
@@ -437,6 +445,13 @@ async function bring_to_life(root, name, encoded) {
     function set_gamma(gamma) {
         gamma_is = drawn_by === 'mine' ? 0 : gamma;
         ex.page_set_gamma(gamma_is);
+        encode_again();
+    }
+    function set_exposure(stops) {
+        ex.page_set_exposure(drawn_by === 'mine' ? 0 : stops);
+        encode_again();
+    }
+    function encode_again() { /* the same light, as other bytes */
         tell_all({do: 'encode', run, name: 'chapter', other: 0, to_other: 0, wish: wish_now()});
         if (other_begun && drawn_by !== 'mine')
             tell_all({do: 'encode', run, name: 'chapter', other: 1, to_other: 1, wish: wish_now()});
@@ -518,7 +533,7 @@ async function bring_to_life(root, name, encoded) {
     function build() {
         const still = [...root.querySelectorAll('img')].at(-1), image = still.cloneNode(), alt = still.alt;
         const picture = make('canvas', {class: 'picture', width: W, height: H, tabindex: 0, role: 'application',
-            'aria-label': `${alt}. Drag to move; Enter: the path of a pixel. Arrows, page up and down, 1 to 7, plus, minus, b, r.`});
+            'aria-label': `${alt}. Drag to move; Enter: the path of a pixel. Arrows, page up and down, digits, comma, point, plus, minus, b, r.`});
         const before = make('canvas', {class: 'other', width: W, height: H, 'aria-hidden': 'true'});
         const stage = make('div', {class: 'stage'}, image, picture, before, make('span', {class: 'line', 'aria-hidden': 'true'}),
             make('span', {class: 'whose yours', text: t('yours')}), make('span', {class: 'whose right', text: t('right one')}));
@@ -526,8 +541,9 @@ async function bring_to_life(root, name, encoded) {
             make('canvas', {class: 'plan', role: 'img', 'aria-label': `${t('The path')}, ${t(view)}`}), make('figcaption', {text: t(view)})));
         const said = make('pre', {class: 'words', tabindex: 0, 'aria-label': t('The path in words')}), where = make('span', {'aria-live': 'polite'});
         const button = (text, label, onclick) => make('button', {type: 'button', text, 'aria-label': label ?? false, onclick});
-        const legend = make('p', {class: 'legend'}, ...[1, 2, 3, 4, 5, 6].map(kind =>
+        const legend = make('p', {class: 'legend'}, ...[1, 2, 3, 4, 5, 6, 7, 8].map(kind =>
             make('span', {style: `--c: var(--kind-${kind})`, text: text_of_kind(kind)})));
+        const part_two = () => [...legend.children].forEach((child, i) => { child.hidden = i >= 6 && ex.page_stage() <= 7; });
         const inspector = make('div', {class: 'inspector'}, make('div', {class: 'bar'}, where,
             button('−', t('sample before'), () => look_at(at.x, at.y, Math.max(0, at.sample - 1))),
             button('+', t('next sample'), () => look_at(at.x, at.y, at.sample + 1)),
@@ -562,17 +578,19 @@ async function bring_to_life(root, name, encoded) {
                 to => { hire(to); again(); }),
             sampler: () => box('sampler', 'Sobol numbers', () => ex.page_sobol(), () => { ex.page_key('l'.charCodeAt(0)); go(); }),
             denoise: () => box('denoise', 'without noise', () => ex.page_denoises(), () => { ex.page_key('d'.charCodeAt(0)); again(); }),
-            stages: () => {
-                const names = ['', 'sphere', 'walls', 'cube', 'shadows', 'gamma', 'mirror', 'indirect'];
+            exposure: () => slider('exposure', 'exposure', -4, 4, 0.5, () => ex.page_exposure(), () => ex.page_exposure().toFixed(1), set_exposure),
+            stages: () => stages_of(STAGES),
+            all_stages: () => stages_of(ALL_STAGES),
+        };
+        const stages_of = stages => {
                 const set = make('fieldset', {class: 'stages'}, make('legend', {class: 'spoken', text: t('as in chapter')}));
-                const inputs = [1, 2, 3, 4, 5, 6, 7].map(stage => {
+                const inputs = stages.map(stage => {
                     const input = make('input', {type: 'radio', name: root.id + '-stage', value: stage, onchange: () => { ex.page_set_stage(stage); go(); }});
-                    set.append(make('label', {}, input, make('span', {}, `${stage} `, make('small', {text: t(names[stage])}))));
+                    set.append(make('label', {}, input, make('span', {}, `${ex.page_chapter(stage)} `, make('small', {text: t(text(ex.page_stage_name(stage)))}))));
                     return input;
                 });
-                controls.stages = () => inputs.forEach((input, i) => { input.checked = i + 1 === ex.page_stage(); });
+                controls.stages = () => inputs.forEach((input, i) => { input.checked = stages[i] === ex.page_stage(); });
                 return set;
-            },
         };
         for (const key of chapter.controls)
             bar.append(known[key]());
@@ -581,20 +599,25 @@ async function bring_to_life(root, name, encoded) {
             divider.value = divide;
             compare.textContent = `${t('on the left')}: ${t(text(ex.page_comparison(compares())))}`;
         };
-        const list = make('select', {onchange: () => { thing = +list.value; }}), things = THINGS.map((name, i) => make('option', {text: t(name), value: i}));
+        const list = make('select', {onchange: () => { thing = +list.value; show_controls(); }}), things = THINGS.map((name, i) => make('option', {text: t(name), value: i}));
         let listed = 0;
         controls.thing = () => { /* those that the stage has */
             const stage = ex.page_stage();
             if (stage !== listed)
-                list.replaceChildren(...things.filter((_, i) => i < 2 || (i === 2 && stage >= 6) || (i === 3 && stage >= 3) || (i === 4 && stage >= 2)));
+                list.replaceChildren(...things.filter((_, i) => i < 2 || (i === 2 && stage >= 6) || (i === 3 && stage >= 3) || (i === 4 && stage >= 2) || (i === 5 && stage >= 8)));
             listed = stage;
             list.value = thing;
             thing = +list.value;
+            const words = thing ? text(ex.page_thing(thing)).split(', ')[1] : '';
+            tuned.textContent = words ? `${t(words.replace(/ [^ ]+$/, ''))} ${words.match(/[^ ]+$/)[0]}` : '';
+            [...pad.children].slice(4).forEach((child, i) => child.setAttribute('aria-label', t(words ? ['more', 'less'][i] : ['nearer', 'farther'][i])));
+            part_two();
         };
         const pad = make('span', {class: 'pad'}, ...[['←', 'left', -1, 0], ['↑', 'up', 0, 1], ['↓', 'down', 0, -1], ['→', 'right', 1, 0]].map(
             ([sign, name, x, y]) => button(sign, t(name), () => nudge(x, y))),
-            button('+', t('nearer'), () => { ex.page_wheel(1); go(); }), button('−', t('farther'), () => { ex.page_wheel(-1); go(); }));
-        const move = make('div', {class: 'bar'}, make('label', {}, t('move') + ' ', list), pad,
+            button('+', t('nearer'), () => { ex.page_tune(thing, 1); go(); }), button('−', t('farther'), () => { ex.page_tune(thing, -1); go(); }));
+        const tuned = make('output', {class: 'tuned'});
+        const move = make('div', {class: 'bar'}, make('label', {}, t('move') + ' ', list), pad, tuned,
             button(t('all as at first'), null, () => { ex.page_key('r'.charCodeAt(0)); as_at_first(); go(); }));
         [...root.children].forEach(child => { child.hidden = true; child.classList.add('still'); });
         root.append(make('div', {class: 'panes'}, stage, inspector), progress, status, spoken,

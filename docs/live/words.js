@@ -9,7 +9,7 @@ const french = {
     'one sample': 'un seul échantillon', 'other numbers': 'd’autres nombres', 'with its noise': 'avec son bruit',
     'yours': 'la vôtre', 'The picture is with the editor now.': 'L’image est maintenant près de l’éditeur.', 'right one': 'la bonne', 'rt.h\'s own function': 'la fonction de rt.h',
     'rays at a time': 'rayons à la fois', 'workers': 'fils', 'worker': 'fil', 'ray at a time': 'rayon à la fois', 'random': 'aléatoires',
-    'sphere': 'sphère', 'walls': 'murs', 'cube': 'cube', 'shadows': 'ombres', 'indirect': 'indirecte', 'camera': 'caméra', 'matt': 'mat', 'normal': 'normale', 'lamp': 'lampe', 'in shadow': 'à l’ombre', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
+    'sphere': 'sphère', 'walls': 'murs', 'cube': 'cube', 'shadows': 'ombres', 'indirect light': 'lumière indirecte', 'glass': 'verre', 'lamps': 'lampes', 'gloss': 'brillance', 'lens and sky': 'objectif et ciel', 'patterns': 'motifs', 'the glass ball': 'la boule de verre', 'radius': 'rayon', 'shininess': 'brillance', 'refractive index': 'indice de réfraction', 'exposure': 'exposition', 'more': 'plus', 'less': 'moins', 'camera': 'caméra', 'matt': 'mat', 'normal': 'normale', 'lamp': 'lampe', 'in shadow': 'à l’ombre', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
     'as in chapter': 'comme au chapitre', 'The picture is done.': 'L’image est terminée.', 'error': 'erreur', 'gamma': 'gamma',
     'million rays a second': 'millions de rayons par seconde', 'This picture cannot move here': 'Cette image ne peut pas bouger ici',
 };
