@@ -381,8 +381,8 @@ tests['part two: what a thing is, by the wheel and by buttons'] = async () => {
     assert.notEqual(larger, first);
     await page.select('.live select', '4');
     await page.waitForFunction(() => document.querySelector('.tuned').textContent === 'radius 7.26');
-    await anew(page, () => button(page, '−'));
-    await anew(page, () => button(page, '−'));
+    await anew(page, () => page.click('.pad [aria-label="less"]'));
+    await anew(page, () => page.click('.pad [aria-label="less"]'));
     assert.match(await text(page, '.tuned'), /radius 6$/);
     await page.select('.live select', '0');
     await page.waitForFunction(() => document.querySelector('.tuned').textContent === '');
