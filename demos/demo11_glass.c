@@ -1,16 +1,15 @@
 /* Demo 11: glass.
  *
  * Before  a ray is sent on by a mirror, or by chance from a matt surface.
- * Now     at a surface of glass part of the light is reflected, the rest goes through, and is
- *         bent. The ray throws a coin, and takes one of the two ways.
+ * Now     glass reflects a part of the light, and bends the rest. The ray throws a coin, and
+ *         takes one of the two ways.
  * Run     make demo11                                        (or ARGS="--bounces 3") */
 #include "live.h"
 
 /* The part that is reflected, by Fresnel; eta is the index behind the surface over that before. */
 static float fresnel(float cosine, float eta)
 {
-    const float sin2 =
-        (1 - cosine) * (1 + cosine) / (eta * eta); /* Snell: of the way on */
+    const float sin2 = (1 - cosine) * (1 + cosine) / (eta * eta); /* Snell */
     if (!(sin2 < 1))
         return 1; /* there is no way on: total reflection */
     const float through = sqrtf(1 - sin2);
@@ -33,8 +32,9 @@ static bool refract(rt_vec3 I, rt_vec3 N, float eta, rt_vec3 *T)
 /* Chapter 7's loop; new is what happens at glass. */
 static rt_vec3 radiance(const rt_scene *scene, rt_ray ray, int bounces, rt_rng *rng)
 {
-    rt_vec3 sum = rt_vec(0, 0, 0);
-    rt_vec3 throughput = rt_vec(1, 1, 1);
+    if (bounces == RT_ALL_BOUNCES) /* by roulette, as in rt.h */
+        return rt_radiance_mis(scene, &ray, bounces, rng);
+    rt_vec3 sum = {0, 0, 0}, throughput = {1, 1, 1};
     for (int bounce = 0; bounce <= bounces; bounce++) {
         rt_hit hit;
         rng->rays++;
@@ -68,8 +68,6 @@ static rt_vec3 radiance(const rt_scene *scene, rt_ray ray, int bounces, rt_rng *
 static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)
 {
     const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
-    if (view->bounces == RT_ALL_BOUNCES) /* by roulette, as in rt.h */
-        return rt_radiance_mis(&scene_glass, &ray, view->bounces, rng);
     return radiance(&scene_glass, ray, view->bounces, rng);
 }
 

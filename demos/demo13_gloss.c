@@ -15,11 +15,6 @@ static rt_vec3 unit(rt_vec3 v)
     return rt_scale(v, dd > 1e-20f ? 1 / sqrtf(dd) : 0);
 }
 
-static float roughness_squared(float shininess)
-{
-    return 2 / (shininess + 2);
-}
-
 /* What hides facets from an eye at this cosine to the normal: 2 cosine / this is left. */
 static float hidden(float cosine, float a2)
 {
@@ -29,7 +24,7 @@ static float hidden(float cosine, float a2)
 /* The light from L that facets send to the eye, and how likely sample_gloss chooses L. */
 static float gloss(rt_vec3 N, rt_vec3 eye, rt_vec3 L, float shininess, float *density)
 {
-    const float a2 = roughness_squared(shininess);
+    const float a2 = 2 / (shininess + 2);
     const float to_eye = rt_dot(N, eye), to_light = rt_dot(N, L);
     const rt_vec3 h = unit(rt_add(eye, L)); /* the facets that send it face this way */
     const rt_vec3 across = rt_cross(N, h);
@@ -44,7 +39,7 @@ static float gloss(rt_vec3 N, rt_vec3 eye, rt_vec3 L, float shininess, float *de
 /* The eye's ray, reflected by a facet that the eye sees. */
 static rt_vec3 sample_gloss(rt_vec3 N, rt_vec3 eye, float shininess, float r1, float r2)
 {
-    const float a = sqrtf(roughness_squared(shininess));
+    const float a = sqrtf(2 / (shininess + 2));
     rt_vec3 x, y;
     rt_basis(N, &x, &y);
     /* stretched by 1/a along N, the facets are those of a hemisphere */

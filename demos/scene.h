@@ -112,7 +112,7 @@ static const pattern_checks room_tiles = {
     10, {0.80f, 0.80f, 0.80f}, {0.12f, 0.12f, 0.14f}};
 static MOVABLE pattern_picture room_picture = {.ball = &room_spheres[ROOM_BALL]};
 
-static MOVABLE rt_surface pattern_surfaces[ROOM_SHAPES] = {
+static rt_surface pattern_surfaces[ROOM_SHAPES] = {
     [ROOM_BALL] = {.shininess = 300,
                    .pattern = picture_pattern,
                    .pattern_data = &room_picture},
