@@ -6411,8 +6411,8 @@ RT__NOINLINE void rt__meet_lamps(const rt__job *job, rt__packet *p, rt__i neares
     }
 }
 
-/* rt_radiance_mis, after the nearest hit: first what shines where the ray arrives, ... */
-RT__NOINLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
+/* rt_radiance_mis, after the nearest hit: what shines where the ray arrives. */
+RT__INLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
 {
     const rt_scene *scene = job->scene;
     const rt__hits *hits = &p->hits;
@@ -6489,11 +6489,14 @@ RT__INLINE void rt__draw_way(const rt__job *job, rt__packet *p, const rt__finish
     p->lanes &= rt__no(f->aims & rt__no(rt__less(rt__all(0.0f), density)));
 }
 
-/* ... then direct light and the way on. Glass and mirrors know it before any light is
+/* All of that, then direct light and the way on. Glass and mirrors know it before any light is
  * asked for: so one place does for the rays to the lights and for the next bounce. */
-RT__NOINLINE void rt__scatter_on(const rt__job *job, rt__packet *p, int bounce,
-                                 uint64_t *rays)
+RT__NOINLINE void rt__pass_on(const rt__job *job, rt__packet *p, int bounce,
+                              uint64_t *rays)
 {
+    rt__arrive(job, p, bounce);
+    if (bounce > job->options.bounces || !rt__any(p->lanes))
+        return;
     const rt__f zero = rt__all(0.0f);
     const rt__u pair = (rt__u)zero + 2u, pairs = pair * (uint32_t)job->scene->lamp_count;
     const rt__f3 n = p->hits.normal, u = p->direction;
@@ -6544,9 +6547,7 @@ RT__INLINE uint64_t rt__trace_mis(const rt__job *job, rt__packet *packets, int c
             rays += rt__count(p->lanes);
             rt__tick(watch);
             rt__extend(job, p);
-            rt__arrive(job, p, bounce);
-            if (bounce <= last && rt__any(p->lanes))
-                rt__scatter_on(job, p, bounce, &rays);
+            rt__pass_on(job, p, bounce, &rays);
             done = done && !rt__any(p->lanes);
         }
         if (done || bounce > last || (bounce == last && !one_more))
