@@ -127,6 +127,9 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/sit
 	done
 	$(BUILD)/demo09 --no-window --quiet --samples 16 --out docs/images/demo10-noisy.png
 	$(BUILD)/demo10 --no-window --quiet --samples 4 --out docs/images/demo10-4.png
+	$(BUILD)/demo14 --no-window --quiet --samples 64 --out docs/images/demo14-64.png
+	$(BUILD)/demo15 --no-window --quiet --texture docs/images/demo09.png \
+	    --out docs/images/demo15-texture.png
 	@tests/check screenshots
 	docs/numbers.sh
 	docs/renew.sh README.md docs/*.md

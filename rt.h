@@ -1852,10 +1852,11 @@ typedef struct rt_lamp {
                      v; both of its faces shine */
 } rt_lamp;
 
-/* The area of a parallelogram. */
+/* The area of a parallelogram; in double, for the square of 1e30 is no float. */
 static inline float rt__lamp_area(const rt_lamp *lamp)
 {
-    return 4.0f * rt_length(rt_cross(lamp->u, lamp->v));
+    const rt_dvec3 n = rt_dcross(rt_to_double(lamp->u), rt_to_double(lamp->v));
+    return (float)(4.0 * sqrt(rt_ddot(n, n)));
 }
 
 /* The radiance of the lamp, from wherever one looks at it: L = I over the area that it
@@ -1882,7 +1883,7 @@ static inline float rt_meet_lamp(const rt_lamp *lamp, const rt_ray *ray, float t
     const rt_vec3 n = rt_normalize(rt_cross(lamp->u, lamp->v));
     const float toward = rt_dot(ray->direction, n);
     const float way = rt_dot(rt_sub(lamp->center, ray->origin), n);
-    if (!(fabsf(way) < 1e30f * fabsf(toward))) /* along the plane, or as good as */
+    if (!(1e-17f * fabsf(way) < fabsf(toward))) /* along the plane, or as good as */
         return 0.0f;
     const float t = way / toward;
     if (!(t > 0.0f && t < t_max))
@@ -6137,7 +6138,7 @@ RT__NOINLINE rt__f rt__meet_panel(const rt_lamp *lamp, const rt__f3 *origin,
     const rt__f3 p = rt__sub(rt__add(*origin, rt__scale(*direction, t)), center);
     const rt__f u = rt__abs(rt__dot(p, rt__vall(across_v)));
     const rt__f v = rt__abs(rt__dot(p, rt__vall(across_u)));
-    const rt__m met = lanes & rt__less(rt__abs(way), 1e30f * rt__abs(toward)) &
+    const rt__m met = lanes & rt__less(1e-17f * rt__abs(way), rt__abs(toward)) &
                       rt__less(zero, t) & rt__less(t, t_max) &
                       (rt__less(u, most_u) | rt__same((rt__i)u, (rt__i)most_u)) &
                       (rt__less(v, most_v) | rt__same((rt__i)v, (rt__i)most_v));

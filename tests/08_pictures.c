@@ -528,7 +528,7 @@ static void test_check_accepts_what_is_at_the_limits(void **state)
 static void test_every_status_has_a_text_of_its_own(void **state)
 {
     (void)state;
-    for (int i = RT_OK; i <= RT_BAD_GUIDES + 1; i++)
+    for (int i = RT_OK; i <= RT_BAD_LENS + 1; i++)
         for (int k = RT_OK; k < i; k++)
             assert_string_not_equal(rt_status_text((rt_status)i),
                                     rt_status_text((rt_status)k));

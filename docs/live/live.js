@@ -25,11 +25,11 @@ const chapters = {
     demo08: {compare: ONE_SAMPLE, controls: ['samples', 'lanes', 'workers'], chart: 'speed'},
     demo09: {compare: OTHER_NUMBERS, controls: ['samples', 'sampler'], chart: 'error'},
     demo10: {compare: NOISY, controls: ['samples', 'denoise']},
-    demo11: {compare: BEFORE, controls: ['samples', 'bounces', 'denoise']},
-    demo12: {compare: BEFORE, controls: ['samples', 'bounces', 'denoise']},
-    demo13: {compare: BEFORE, controls: ['samples', 'bounces', 'denoise']},
-    demo14: {compare: BEFORE, controls: ['samples', 'exposure', 'denoise']},
-    demo15: {compare: BEFORE, controls: ['all_stages', 'samples', 'exposure', 'denoise']},
+    demo11: {compare: NOISY, controls: ['samples', 'bounces', 'denoise']},
+    demo12: {compare: NOISY, controls: ['samples', 'bounces', 'denoise']},
+    demo13: {compare: NOISY, controls: ['samples', 'bounces', 'denoise']},
+    demo14: {compare: NOISY, controls: ['samples', 'exposure', 'denoise']},
+    demo15: {compare: NOISY, controls: ['all_stages', 'samples', 'exposure', 'denoise']},
 };
 
 async function bring_to_life(root, name, encoded) {
@@ -599,7 +599,7 @@ async function bring_to_life(root, name, encoded) {
             divider.value = divide;
             compare.textContent = `${t('on the left')}: ${t(text(ex.page_comparison(compares())))}`;
         };
-        const list = make('select', {onchange: () => { thing = +list.value; }}), things = THINGS.map((name, i) => make('option', {text: t(name), value: i}));
+        const list = make('select', {onchange: () => { thing = +list.value; show_controls(); }}), things = THINGS.map((name, i) => make('option', {text: t(name), value: i}));
         let listed = 0;
         controls.thing = () => { /* those that the stage has */
             const stage = ex.page_stage();

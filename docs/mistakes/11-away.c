@@ -16,7 +16,7 @@ static inline bool my_refract(rt_vec3 incident, rt_vec3 normal, float eta,
     const float sin2 = (1 - cosine) * (1 + cosine) * (eta * eta);
     if (!(sin2 < 1))
         return false;
-    *refracted = rt_add(rt_scale(incident, eta),
-                        rt_scale(normal, eta * cosine - sqrtf(1 - sin2)));
+    *refracted =
+        rt_add(rt_scale(incident, eta), rt_scale(normal, eta * cosine - sqrtf(1 - sin2)));
     return true;
 }

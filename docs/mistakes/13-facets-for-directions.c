@@ -15,7 +15,8 @@ static inline float my_gloss(rt_vec3 normal, rt_vec3 to_eye, rt_vec3 to_light,
 {
     const float a2 = 2.0f / (shininess + 2.0f);
     const float eye = rt_dot(normal, to_eye), light = rt_dot(normal, to_light);
-    const rt_vec3 h = rt_normalize(rt_add(to_eye, to_light)), across = rt_cross(normal, h);
+    const rt_vec3 h = rt_normalize(rt_add(to_eye, to_light)),
+                  across = rt_cross(normal, h);
     const float up = rt_dot(normal, h), k = rt_dot(across, across) + a2 * up * up;
     const float facets = a2 / (3.14159265359f * k * k);
     *density = 0.0f;

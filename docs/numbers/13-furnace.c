@@ -80,7 +80,8 @@ int main(void)
             value[i] = albedo(rows[r].model, rows[r].n, degrees[i] * pi / 180);
             printf(" %.3f |", value[i]);
         }
-        printf("\n%s-0: %.3f\n%s-60: %.3f\n", rows[r].key, value[0], rows[r].key, value[2]);
+        printf("\n%s-0: %.3f\n%s-60: %.3f\n", rows[r].key, value[0], rows[r].key,
+               value[2]);
     }
     const int models[] = {PHONG, BLINN, GGX};
     const char *const names[] = {"phong", "blinn", "metal"};

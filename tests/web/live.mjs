@@ -13,7 +13,7 @@ const words = process.argv.slice(2).filter(word => word !== '--firefox');
 const timed = words[0] === '--timed' && words.shift() !== '';
 const pictures = words[0] === '--pictures' ? words.splice(0, 2)[1] : undefined;
 const pages = resolve(`${build}/web/pages`);
-const chapters = ['01', '02', '03', '04', '05', '06', '07', '08', '09', '10'].map(n => `demo${n}`);
+const chapters = ['01', '02', '03', '04', '05', '06', '07', '08', '09', '10', '11', '12', '13', '14', '15'].map(n => `demo${n}`);
 
 // ---- a live picture ---------------------------------------------------------------------------
 
@@ -117,7 +117,7 @@ const BALL = [155, 225]; // of the picture at first
 for (const demo of chapters)
     tests[`${demo} has the bytes of the program`] = async () => {
         const page = await open(demo, { size: [480, 360] });
-        await done(page, demo === 'demo10');
+        await done(page, demo >= 'demo10'); // from there on it is finished, too
         assert.equal(await hash(page), await nativeHash(page, demo));
     };
 
@@ -356,8 +356,59 @@ tests['chapter 10: d and g change the finished picture, and back'] = async () =>
     await become(page, first, 'g twice');
 };
 
+tests['part two: its pictures, on keys and to choose'] = async () => {
+    const page = await open('demo15');
+    await done(page, true);
+    for (const [stage, demo] of [[8, 'demo11'], [9, 'demo12'], [10, 'demo13'], [11, 'demo14']]) {
+        await page.click(`.stages label:nth-of-type(${stage})`);
+        await become(page, await nativeHash(page, demo, '--samples', '64'), demo);
+    }
+    await press(page, '.');
+    await become(page, await nativeHash(page, 'demo15'), 'a point goes on');
+    await press(page, '9');
+    await page.waitForFunction(() => document.querySelector('.stages label:nth-of-type(9) input').checked);
+    assert.match(await text(page, '.stages label:nth-of-type(9)'), /12 lamps/);
+};
+
+tests['part two: what a thing is, by the wheel and by buttons'] = async () => {
+    const page = await open('demo12');
+    await done(page, true);
+    const first = await hash(page), [x, y] = await place(page, 218, 65); // the lamp
+    await page.focus('.picture');
+    await page.mouse.move(x, y);
+    await anew(page, () => page.mouse.wheel({ deltaY: -200 }));
+    const larger = await hash(page);
+    assert.notEqual(larger, first);
+    await page.select('.live select', '4');
+    await page.waitForFunction(() => document.querySelector('.tuned').textContent === 'radius 7.26');
+    await anew(page, () => page.click('.pad [aria-label="less"]'));
+    await anew(page, () => page.click('.pad [aria-label="less"]'));
+    assert.match(await text(page, '.tuned'), /radius 6$/);
+    await page.select('.live select', '0');
+    await page.waitForFunction(() => document.querySelector('.tuned').textContent === '');
+};
+
+tests['part two: exposure makes other bytes of the same light'] = async () => {
+    const page = await open('demo14');
+    await done(page, true);
+    const first = await hash(page);
+    await slide(page, 'exposure', 2);
+    await become(page, await nativeHash(page, 'demo14', '--exposure', '2'), 'slider');
+    await press(page, 'w', 'w', 'w', 'w');
+    await become(page, first, 'keys');
+};
+
+tests['part two: the path tells of glass, gloss and lamps'] = async () => {
+    const page = await open('demo13');
+    await done(page, true);
+    const [x, y] = await place(page, 255, 277);
+    await page.mouse.click(x, y);
+    await page.waitForFunction(() => /refracted, in/.test(document.querySelector('.live .words').textContent));
+    assert.equal(await page.$$eval('.legend span', list => list.filter(span => !span.hidden).length), 8);
+};
+
 tests['what the keys can move is what the stage has'] = async () => {
-    for (const [demo, things] of [['demo01', 2], ['demo02', 3], ['demo03', 4], ['demo06', 5]]) {
+    for (const [demo, things] of [['demo01', 2], ['demo02', 3], ['demo03', 4], ['demo06', 5], ['demo11', 6]]) {
         const page = await open(demo);
         assert.equal(await page.$$eval('.live option', list => list.length), things, demo);
     }
@@ -400,7 +451,7 @@ tests['a click tells what --explain tells'] = async () => {
 // ---- for everybody ----------------------------------------------------------------------------------------
 
 tests['axe-core finds nothing, light and dark, on a phone and a desk'] = async () => {
-    for (const demo of ['demo01', 'demo07', 'demo08', 'demo10'])
+    for (const demo of ['demo01', 'demo07', 'demo08', 'demo10', 'demo14', 'demo15'])
         for (const [scheme, width] of [['light', 360], ['dark', 1100]]) {
             const page = await open(demo, { width, features: [{ name: 'prefers-color-scheme', value: scheme }] });
             await done(page);

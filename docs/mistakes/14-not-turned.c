@@ -1,0 +1,26 @@
+/* The ray not turned
+ *
+ * Symptom: all is blurred by as much as the lens is large, and nothing is sharp, however the focus is
+ *          set: sharp would be what is infinitely far away
+ * Cause:   the ray begins at a point of the lens, but keeps the direction of the pinhole's ray
+ * Cure:    towards the point in which the pinhole's ray meets the sharp plane
+ * Options:
+ */
+#define rt_lens_ray my_lens_ray
+#include "rt.h"
+
+static inline rt_ray my_lens_ray(const rt_camera *camera, const rt_lens *lens,
+                                 const rt_ray *pinhole, float r1, float r2)
+{
+    const rt_vec3 forward = rt_normalize(camera->direction);
+    const rt_vec3 right = rt_normalize(rt_cross(camera->direction, camera->up));
+    const rt_vec3 top = rt_cross(right, forward);
+    const float radius = lens->radius * sqrtf(r2);
+    float sine, cosine;
+    rt_sincos(r1, &sine, &cosine);
+    const rt_vec3 aside =
+        rt_add(rt_scale(right, radius * cosine), rt_scale(top, radius * sine));
+    rt_ray ray = *pinhole;
+    ray.origin = rt_add(ray.origin, aside);
+    return ray;
+}
