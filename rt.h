@@ -6490,8 +6490,9 @@ RT__INLINE void rt__draw_way(const rt__job *job, rt__packet *p, const rt__finish
     p->lanes &= rt__no(f->aims & rt__no(rt__less(rt__all(0.0f), density)));
 }
 
-/* All of that, then direct light and the way on. Glass and mirrors know it before any light is
- * asked for: so one place does for the rays to the lights and for the next bounce. */
+/* All of that, then direct light and the way on. Glass and mirrors know it before any
+ * light is asked for: so one place does for the rays to the lights and for the next
+ * bounce. */
 RT__NOINLINE void rt__pass_on(const rt__job *job, rt__packet *p, int bounce,
                               uint64_t *rays)
 {
