@@ -4995,8 +4995,8 @@ RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
 /* ====================================================================================
  * Packets: 4, 8 or 16 rays at a time
  *
- * Here are chapters 1 to 7 once more, for a packet of neighbouring pixels, each in its
- * lane:
+ * Here are the chapters once more, 1 to 7 and then part two, for a packet of neighbouring
+ * pixels, each in its lane:
  *
  *     lane               0     1     2     3   ...
  *     pixel             0,0   1,0   2,0   3,0        neighbours in a row
@@ -5738,7 +5738,7 @@ RT__INLINE rt__m rt__looked(const rt__job *job, const rt__packet *p, int bounce,
     return last ? p->lanes : p->lanes & rt__no(mirror);
 }
 
-/* rt_first_look, as part of the path. Where the path ends before, because no light is left
+/* rt_first_look, as part of the path. Where the path ends before, since no light is left
  * in it, the guide is still looked for: see rt__step_all. */
 RT__NOINLINE void rt__look_first(const rt__job *job, rt__packet *p, int bounce,
                                  rt__m missed, const rt__f3 *light)
@@ -5842,13 +5842,13 @@ RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count
 
 /* ---- part two: chapters 11 to 15 -------------------------------------------------
  *
- * The same again for rt_radiance_mis. Surfaces, lamps and gloss are computed for all lanes
- * as soon as one of them wants it. Patterns and skies are functions of the user's, called
- * for one lane after the other. */
+ * The same again for rt_radiance_mis: what is not part one is computed for all lanes as
+ * soon as one of them wants it. Patterns and skies are the user's functions, called for
+ * one lane after the other. What a lamp is, all lanes have in common: that the chapters'
+ * own functions tell. */
 
-#define rt__at(v, lane) rt__lane(&(v), lane)
-
-/* A float of the table of surfaces, at this offset in each, where the shapes are many. */
+/* What the surfaces of these shapes have at this offset in rt_surface, which is a float:
+ * where the shapes are many, one lane after the other; ... */
 RT__NOINLINE rt__f rt__gather(const rt_surface *surfaces, size_t offset, rt__i shape,
                               unsigned lanes)
 {
@@ -5862,6 +5862,7 @@ RT__NOINLINE rt__f rt__gather(const rt_surface *surfaces, size_t offset, rt__i s
     return result;
 }
 
+/* ... else from the table. */
 RT__INLINE rt__f rt__of_surface(const rt__job *job, const float *column, size_t offset,
                                 rt__i shape, rt__m lanes)
 {
@@ -5890,8 +5891,8 @@ static rt_hit rt__hit_of(const rt_scene *scene, const rt__hits *hits, int lane)
     const int number = hits->shape[lane], box = number - scene->sphere_count;
     rt_hit hit;
     hit.t = hits->t[lane];
-    hit.point = rt__at(hits->point, lane);
-    hit.normal = rt__at(hits->normal, lane);
+    hit.point = rt__lane(&hits->point, lane);
+    hit.normal = rt__lane(&hits->normal, lane);
     hit.material =
         box < 0 ? &scene->spheres[number].material : &scene->boxes[box].material;
     hit.shape = number;
@@ -6016,7 +6017,7 @@ RT__INLINE rt__f3 rt__cross(rt__f3 a, rt__f3 b)
     return rt__vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* rt__cap, where *dd is the square of the distance to the centre. */
+/* rt__cap: rr is the square of the radius, dd that of the distance to the centre. */
 RT__INLINE rt__f rt__caps(float rr, rt__f dd)
 {
     const rt__f s = rr / dd, all = rt__all(rr);
@@ -6411,7 +6412,7 @@ RT__NOINLINE void rt__meet_lamps(const rt__job *job, rt__packet *p, rt__i neares
     }
 }
 
-/* rt_radiance_mis, after the nearest hit: first what shines where the ray arrives, ... */
+/* rt_radiance_mis, after the nearest hit: what shines where the ray arrives. */
 RT__INLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
 {
     const rt_scene *scene = job->scene;
@@ -6457,66 +6458,79 @@ RT__NOINLINE void rt__look_first_mis(const rt__job *job, rt__packet *p, int boun
     p->looking &= rt__no(p->alone);
 }
 
-/* ... then direct light and the way on. */
-RT__NOINLINE void rt__scatter_on(const rt__job *job, rt__packet *p, int bounce,
-                                 uint64_t *rays)
+/* Where the rays to the lights and those of the next bounce start: behind the surface in
+ * the lanes below. Those that went through it are now on its other side. */
+RT__INLINE void rt__set_out_mis(const rt__job *job, rt__packet *p, rt__m below,
+                                rt__m through)
 {
-    const rt_scene *scene = job->scene;
-    const rt__f zero = rt__all(0.0f);
-    const rt__u nothing = (rt__u)zero;
-    const rt__m none = {0};
     const rt__hits *hits = &p->hits;
+    const rt__i nowhere = (hits->left & 0) + RT__NOWHERE;
+    const rt__m other = through & rt__no(rt__same(hits->left, nowhere));
+    const rt__i left = rt__iselect(other, ~hits->left, nowhere);
+    rt__start_at(job->table, &p->place, rt__leave(hits->point, hits->normal, below),
+                 rt__iselect(below, left, hits->left));
+}
+
+/* Of the lanes that aim: the light of the lamps, and a direction that is drawn. */
+RT__INLINE void rt__draw_way(const rt__job *job, rt__packet *p, const rt__finishes *f,
+                             rt__f3 points, rt__f r1, rt__f r2, uint64_t *rays)
+{
+    const rt__f3 n = p->hits.normal;
+    const rt__f3 to_eye = rt__scale(p->direction, rt__all(-1.0f));
+    const rt__f3 direct = rt__add(points, rt__from_lamps(job, p, f, to_eye, rays));
+    p->sum =
+        rt__vselect(f->aims, rt__add(p->sum, rt__mul(p->throughput, direct)), p->sum);
+    const rt__f3 direction = rt__choose(f, f->aims, n, to_eye, r1, r2);
+    rt__f density;
+    const rt__f3 sent = rt__scatter(f, f->aims, n, to_eye, direction, &density);
+    const rt__f3 part = rt__vselect(f->shiny, rt__scale(sent, 1.0f / density), f->albedo);
+    p->throughput = rt__vselect(f->aims, rt__mul(p->throughput, part), p->throughput);
+    p->direction = rt__vselect(f->aims, direction, p->direction);
+    p->density = rt__select(f->aims, density, p->density);
+    p->lanes &= rt__no(f->aims & rt__no(rt__less(rt__all(0.0f), density)));
+}
+
+/* All of that, then direct light and the way on. Glass and mirrors know it before any
+ * light is asked for: so one place does for the rays to the lights and for the next
+ * bounce. */
+RT__NOINLINE void rt__pass_on(const rt__job *job, rt__packet *p, int bounce,
+                              uint64_t *rays)
+{
     rt__arrive(job, p, bounce);
     if (bounce > job->options.bounces || !rt__any(p->lanes))
         return;
-    const rt__f3 n = hits->normal, u = p->direction;
-    const rt__f3 to_eye = rt__scale(u, rt__all(-1.0f));
-    const rt__finishes f = rt__finishes_of(job, hits, p->lanes);
+    const rt__f zero = rt__all(0.0f);
+    const rt__u pair = (rt__u)zero + 2u, pairs = pair * (uint32_t)job->scene->lamp_count;
+    const rt__f3 n = p->hits.normal, u = p->direction;
+    const rt__finishes f = rt__finishes_of(job, &p->hits, p->lanes);
     const rt__m mirror = f.metal & rt__no(f.shiny | f.glass);
-    const rt__i two = (rt__i)zero + 2, pairs = (rt__i)zero + 2 * scene->lamp_count;
+    const rt__m none = {0};
 
     /* the pair for the way on comes after those for the lamps, which only some draw */
     rt__numbers numbers = p->numbers;
-    numbers.dimension += (rt__u)rt__iselect(f.aims, pairs, (rt__i)nothing);
+    numbers.dimension += (rt__u)rt__iselect(f.aims, pairs, pair - 2u);
     rt__f r1, r2;
     rt__draw(&numbers, &r1, &r2);
 
-    /* Glass and mirrors know the way before any light is asked for; so one place does for
-     * the rays to the lights and for the way on. */
-    rt__f3 direction = rt__sub(u, rt__scale(n, 2.0f * rt__dot(u, n)));
+    rt__f3 direction = rt__sub(u, rt__scale(n, 2.0f * rt__dot(u, n))); /* rt_reflect */
     rt__m through = none;
     if (rt__any(f.glass))
         through = rt__through_glass(job, p, f.glass, f.eta, r1, &direction);
-    const rt__m below = rt__no(f.aims) & rt__less(rt__dot(n, direction), zero);
-    const rt__i nowhere = (rt__i)zero + RT__NOWHERE;
-    const rt__m known = through & rt__no(rt__same(hits->left, nowhere));
-    rt__start_at(
-        job->table, &p->place, rt__leave(hits->point, n, below),
-        rt__iselect(below, rt__iselect(known, ~hits->left, nowhere), hits->left));
-    p->density = zero;
+    rt__set_out_mis(job, p, rt__no(f.aims) & rt__less(rt__dot(n, direction), zero),
+                    through);
     rt__f3 points = rt__vec(zero, zero, zero);
     if (rt__any(f.aims))
-        points = rt__from_points(job, p, &f, to_eye, rays);
+        points = rt__from_points(job, p, &f, rt__scale(u, rt__all(-1.0f)), rays);
     if (rt__any(p->looking))
         rt__look_first_mis(job, p, bounce, &f, mirror, &points);
     p->throughput = rt__vselect(mirror, rt__mul(p->throughput, f.albedo), p->throughput);
-    if (rt__any(f.aims)) {
-        const rt__f3 direct = rt__add(points, rt__from_lamps(job, p, &f, to_eye, rays));
-        p->sum =
-            rt__vselect(f.aims, rt__add(p->sum, rt__mul(p->throughput, direct)), p->sum);
-        direction =
-            rt__vselect(f.aims, rt__choose(&f, f.aims, n, to_eye, r1, r2), direction);
-        rt__f density;
-        const rt__f3 sent = rt__scatter(&f, f.aims, n, to_eye, direction, &density);
-        const rt__f3 part =
-            rt__vselect(f.shiny, rt__scale(sent, 1.0f / density), f.albedo);
-        p->throughput = rt__vselect(f.aims, rt__mul(p->throughput, part), p->throughput);
-        p->density = rt__select(f.aims, density, zero);
-        p->lanes &= rt__no(f.aims & rt__no(rt__less(zero, density)));
-    }
-    p->numbers.dimension = numbers.dimension + (rt__u)rt__iselect(mirror, two - 2, two);
-    p->from = hits->point;
-    p->direction = direction;
+    p->density = zero;
+    if (rt__any(f.aims))
+        rt__draw_way(job, p, &f, points, r1, r2, rays);
+    p->direction = rt__vselect(f.aims, p->direction, direction);
+    p->numbers.dimension =
+        numbers.dimension + (rt__u)rt__iselect(mirror, pair - 2u, pair);
+    p->from = p->hits.point;
     rt__go_on(job, p, bounce);
 }
 
@@ -6529,13 +6543,14 @@ RT__INLINE uint64_t rt__trace_mis(const rt__job *job, rt__packet *packets, int c
     for (int bounce = 0;; bounce++) {
         bool done = true;
         for (int k = 0; k < count; k++) {
-            if (!rt__any(packets[k].lanes))
+            rt__packet *p = &packets[k];
+            if (!rt__any(p->lanes))
                 continue;
-            rays += rt__count(packets[k].lanes);
+            rays += rt__count(p->lanes);
             rt__tick(watch);
-            rt__extend(job, &packets[k]);
-            rt__scatter_on(job, &packets[k], bounce, &rays);
-            done = done && !rt__any(packets[k].lanes);
+            rt__extend(job, p);
+            rt__pass_on(job, p, bounce, &rays);
+            done = done && !rt__any(p->lanes);
         }
         if (done || bounce > last || (bounce == last && !one_more))
             return rays;
