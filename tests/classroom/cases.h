@@ -601,6 +601,303 @@ static void radiance_mean(float *in, int k, uint32_t *state)
     in[8] = (float)k;
 }
 
+/* ---- part two */
+
+static void put_fresnel(float *in, float cosine, float eta)
+{
+    in[0] = cosine;
+    in[1] = eta;
+}
+
+static void fresnel_straight(float *in, int k, uint32_t *state)
+{
+    const float eta = between(state, 1.1f, 2.5f);
+    put_fresnel(in, 1, k % 2 == 0 ? eta : 1 / eta);
+}
+
+static void fresnel_outside(float *in, int k, uint32_t *state)
+{
+    const float eta = between(state, 1.1f, 2.5f);
+    (void)k;
+    put_fresnel(in, between(state, 0.02f, 1), eta);
+}
+
+/* From inside, at a cosine at which sin^2 t, behind the surface, is in this range: not so near 1
+ * that it depends on roundings. */
+static float inside_cosine(float eta, float low, float high, uint32_t *state)
+{
+    const float sin2 = between(state, low, high) / (eta * eta);
+    return sqrtf(sin2 < 1 ? 1 - sin2 : 0);
+}
+
+static void fresnel_inside(float *in, int k, uint32_t *state)
+{
+    const float eta = between(state, 1.1f, 2.5f);
+    (void)k;
+    put_fresnel(in, inside_cosine(eta, 0, 0.98f, state), 1 / eta);
+}
+
+static void fresnel_total(float *in, int k, uint32_t *state)
+{
+    const float eta = between(state, 1.1f, 2.5f);
+    (void)k;
+    put_fresnel(in, inside_cosine(eta, 1.01f, eta * eta - 0.01f, state), 1 / eta);
+}
+
+static void put_refract(float *in, float cosine, float eta, uint32_t *state)
+{
+    const rt_vec3 normal = any_direction(state);
+    const rt_vec3 side = rt_scale(across(normal, state), sqrtf(1 - cosine * cosine));
+    put_vec(&in, rt_normalize(rt_sub(side, rt_scale(normal, cosine))));
+    put_vec(&in, normal);
+    *in = eta;
+}
+
+static void refract_straight(float *in, int k, uint32_t *state)
+{
+    const float eta = between(state, 1.1f, 2.5f);
+    put_refract(in, 1, k % 2 == 0 ? eta : 1 / eta, state);
+}
+
+static void refract_into(float *in, int k, uint32_t *state)
+{
+    const float eta = between(state, 1.1f, 2.5f);
+    const float cosine = between(state, 0.02f, 1);
+    (void)k;
+    put_refract(in, cosine, eta, state);
+}
+
+static void refract_out(float *in, int k, uint32_t *state)
+{
+    const float eta = between(state, 1.1f, 2.5f);
+    const float cosine = inside_cosine(eta, 0, 0.98f, state);
+    (void)k;
+    put_refract(in, cosine, 1 / eta, state);
+}
+
+static void refract_total(float *in, int k, uint32_t *state)
+{
+    const float eta = between(state, 1.1f, 2.5f);
+    const float cosine = inside_cosine(eta, 1.01f, eta * eta - 0.01f, state);
+    (void)k;
+    put_refract(in, cosine, 1 / eta, state);
+}
+
+/* A ball that is seen from the point, at so many radii; then where to write on. */
+static float *put_ball_lamp(float *in, range distance, uint32_t *state)
+{
+    const float d = pick(distance, state);
+    const float radius = between(state, 0.1f, 2);
+    const rt_vec3 point = vec_between(state, -2, 2);
+    put_vec(&in, rt_add(point, rt_scale(any_direction(state), d * radius)));
+    *in++ = radius;
+    put_vec(&in, rt_vec(0, 0, 0));
+    put_vec(&in, rt_vec(0, 0, 0));
+    put_vec(&in, point);
+    return in;
+}
+
+/* A parallelogram that is not seen on edge. */
+static float *put_flat_lamp(float *in, uint32_t *state)
+{
+    const rt_vec3 n = any_direction(state), a = across(n, state);
+    const rt_vec3 b = rt_add(rt_cross(n, a), rt_scale(a, between(state, -0.6f, 0.6f)));
+    const rt_vec3 u = rt_scale(a, between(state, 0.2f, 1.5f));
+    const rt_vec3 v = rt_scale(b, between(state, 0.2f, 1.5f));
+    const rt_vec3 center = vec_between(state, -5, 5);
+    const float away = between(state, 1, 5) * (between(state, -1, 1) < 0 ? -1.0f : 1.0f);
+    const rt_vec3 aside = rt_scale(across(n, state), between(state, 0, 2));
+    put_vec(&in, center);
+    *in++ = 0;
+    put_vec(&in, u);
+    put_vec(&in, v);
+    put_vec(&in, rt_add(center, rt_add(rt_scale(n, away), aside)));
+    return in;
+}
+
+static void put_two_numbers(float *in, float margin, uint32_t *state)
+{
+    in[0] = between(state, margin, 1 - margin);
+    in[1] = between(state, margin, 1 - margin);
+}
+
+static void sample_ball(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_two_numbers(put_ball_lamp(in, (range){1.2f, 9}, state), 1e-4f, state);
+}
+
+static void sample_flat(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_two_numbers(put_flat_lamp(in, state), 1e-4f, state);
+}
+
+/* Toward any point of the lamp. */
+static void put_toward(float *in, float *at, uint32_t *state)
+{
+    const float *from = in;
+    const rt_lamp lamp = take_lamp(&from);
+    const rt_vec3 point = take_vec(&from);
+    const float a = between(state, 0.01f, 0.99f);
+    const float b = between(state, 0.01f, 0.99f);
+    put_vec(&at, toward(point, rt_sample_lamp(&lamp, point, a, b)));
+}
+
+static void density_ball(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_toward(in, put_ball_lamp(in, (range){1.2f, 9}, state), state);
+}
+
+static void density_small(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_toward(in, put_ball_lamp(in, (range){300, 3000}, state), state);
+}
+
+static void density_flat(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_toward(in, put_flat_lamp(in, state), state);
+}
+
+static void density_within(float *in, int k, uint32_t *state)
+{
+    float *at = put_ball_lamp(in, (range){0.01f, 0.9f}, state);
+    (void)k;
+    put_vec(&at, any_direction(state));
+}
+
+static void put_mis(float *in, float decades, uint32_t *state)
+{
+    in[0] = powf(10, between(state, -decades, decades));
+    in[1] = powf(10, between(state, -decades, decades));
+}
+
+static void mis_both(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_mis(in, 1, state);
+}
+
+static void mis_extreme(float *in, int k, uint32_t *state)
+{
+    put_mis(in, 30, state);
+    if (k % 2 == 0) /* far from 1, and like each other */
+        in[1] = in[0] * between(state, 0.2f, 5);
+}
+
+static void mis_never(float *in, int k, uint32_t *state)
+{
+    put_mis(in, 1, state);
+    in[k % 2] = 0;
+}
+
+/* N, and an eye at a cosine from low to 1. */
+static float *put_eye(float *in, float low, uint32_t *state)
+{
+    const rt_vec3 n = any_direction(state);
+    const float cosine = between(state, low, 1);
+    const rt_vec3 side = rt_scale(across(n, state), sqrtf(1 - cosine * cosine));
+    put_vec(&in, n);
+    put_vec(&in, rt_normalize(rt_add(rt_scale(n, cosine), side)));
+    return in;
+}
+
+static void gloss_drawn(float *in, int k, uint32_t *state)
+{
+    float *at = put_eye(in, 0.15f, state);
+    (void)k;
+    *at = between(state, 2, 200);
+    put_two_numbers(at + 1, 1e-4f, state);
+}
+
+static void gloss_straight(float *in, int k, uint32_t *state)
+{
+    gloss_drawn(in, k, state);
+    memcpy(in + 3, in, 3 * sizeof *in);
+}
+
+static void gloss_mirror(float *in, int k, uint32_t *state)
+{
+    gloss_drawn(in, k, state);
+    in[6] = 1e6f;
+    put_two_numbers(in + 7, 0.05f, state); /* not what is far off, and rare */
+}
+
+/* A light near where the mirror sends it, as far off as the lobe is wide, or anywhere above. */
+static void put_gloss(float *in, float shininess, bool near, uint32_t *state)
+{
+    for (;;) {
+        const float *from = in;
+        float *at = put_eye(in, 0.1f, state);
+        const rt_vec3 n = take_vec(&from), eye = take_vec(&from);
+        const rt_vec3 mirrored = rt_sub(rt_scale(n, 2 * rt_dot(n, eye)), eye);
+        const rt_vec3 off = rt_scale(any_direction(state), 2 / sqrtf(shininess));
+        const rt_vec3 light =
+            near ? rt_normalize(rt_add(mirrored, off)) : any_direction(state);
+        put_vec(&at, light);
+        *at = shininess;
+        if (rt_dot(n, light) > 0.05f)
+            return;
+    }
+}
+
+static void gloss_wide(float *in, int k, uint32_t *state)
+{
+    const float shininess = between(state, 2, 50);
+    put_gloss(in, shininess, k % 2 == 0, state);
+}
+
+static void gloss_sharp(float *in, int k, uint32_t *state)
+{
+    const float shininess = between(state, 200, 2000);
+    (void)k;
+    put_gloss(in, shininess, true, state);
+}
+
+static void gloss_below(float *in, int k, uint32_t *state)
+{
+    gloss_wide(in, k, state);
+    float *const to = in + (k % 2 == 0 ? 3 : 6); /* the eye, or the light */
+    for (int i = 0; i < 3; i++)
+        to[i] = -to[i];
+}
+
+static void put_lens(float *in, bool anywhere, float radius, uint32_t *state)
+{
+    const rt_vec3 direction = anywhere ? any_direction(state) : rt_vec(0, 0, -1);
+    const rt_vec3 up = anywhere ? across(direction, state) : rt_vec(0, 1, 0);
+    put_vec(&in, vec_between(state, -9, 9));
+    put_vec(&in, direction);
+    put_vec(&in, up);
+    *in++ = between(state, 20, 80);
+    *in++ = radius;
+    *in++ = between(state, 2, 30);
+    *in++ = between(state, 0, 320);
+    *in++ = between(state, 0, 240);
+    put_two_numbers(in, 1e-4f, state);
+}
+
+static void lens_straight(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_lens(in, false, between(state, 0.1f, 2), state);
+}
+
+static void lens_anywhere(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_lens(in, true, between(state, 0.1f, 2), state);
+}
+
+static void lens_pinhole(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_lens(in, true, 0, state);
+}
+
 /* ---- judging answers ------------------------------------------------------------------- */
 
 static int judge_leave(const float *in, const float *out, int count, char *why,
@@ -775,6 +1072,228 @@ static int judge_mean(const float *in, const float *out, int count, char *why,
     return count;
 }
 
+/* ---- part two. Where a routine is free to use r1 and r2 in its own way, the answers are held
+ * against what must be true of each, and their statistics against what they should be. */
+
+static int judge_lamp_point(const float *in, const float *out, int count, char *why,
+                            size_t size)
+{
+    for (int k = 0; k < count; k++) {
+        const float *at = in + 15 * k, *to = out + 3 * k;
+        const rt_lamp lamp = take_lamp(&at);
+        const rt_vec3 point = take_vec(&at);
+        const rt_vec3 off = rt_sub(take_vec(&to), lamp.center);
+        if (lamp.radius > 0) {
+            const float far = rt_length(off) / lamp.radius;
+            if (!(fabsf(far - 1) < 1e-3f))
+                return snprintf(why, size, "it is %.4g radii from the center",
+                                (double)far),
+                       k;
+            /* at the rim of what is seen this is 0 */
+            const rt_vec3 to_point = rt_sub(point, rt_add(lamp.center, off));
+            if (!(rt_dot(off, to_point) > -5e-3f * lamp.radius * rt_length(to_point)))
+                return snprintf(why, size, "it is on the far side of the ball"), k;
+            continue;
+        }
+        const rt_vec3 n = rt_cross(lamp.u, lamp.v);
+        const float nn = rt_dot(n, n);
+        const float a = rt_dot(rt_cross(off, lamp.v), n) / nn,
+                    b = rt_dot(rt_cross(lamp.u, off), n) / nn;
+        if (!(fabsf(rt_dot(off, n)) < 1e-4f * sqrtf(nn) && fabsf(a) < 1.0001f &&
+              fabsf(b) < 1.0001f))
+            return snprintf(why, size, "it is not on the parallelogram"), k;
+    }
+    return count;
+}
+
+/* Two numbers for each answer that should be uniform in (0, 1), and independent. */
+static int judge_two(const float (*two)[2], int count, const char *first,
+                     const char *second, char *why, size_t size)
+{
+    int counts[2][32] = {{0}}, both[64] = {0};
+    for (int k = 0; k < count; k++) {
+        counts[0][bin_of(two[k][0], 32)]++;
+        counts[1][bin_of(two[k][1], 32)]++;
+        both[8 * bin_of(two[k][0], 8) + bin_of(two[k][1], 8)]++;
+    }
+    if (surprise(counts[0], 32, count) > LIMIT)
+        return snprintf(why, size, "%s", first), -1;
+    if (surprise(counts[1], 32, count) > LIMIT)
+        return snprintf(why, size, "%s", second), -1;
+    if (surprise(both, 64, count) > LIMIT)
+        return snprintf(why, size, "the two random numbers depend on each other"), -1;
+    return count;
+}
+
+static float uniform_pairs[MANY][2];
+
+static float turn_of(float x, float y)
+{
+    return 0.5f + atan2f(y, x) / 6.2831853f;
+}
+
+/* Of a ball 1 - cos is uniform from 0 to that of the rim, and the turn around the middle; of a
+ * parallelogram both coordinates are. */
+static int judge_lamp_even(const float *in, const float *out, int count, char *why,
+                           size_t size)
+{
+    const int wrong = judge_lamp_point(in, out, count, why, size);
+    if (wrong != count)
+        return wrong;
+    for (int k = 0; k < count; k++) {
+        const float *at = in + 15 * k, *to = out + 3 * k;
+        const rt_lamp lamp = take_lamp(&at);
+        const rt_vec3 point = take_vec(&at), end = take_vec(&to);
+        float *two = uniform_pairs[k];
+        if (lamp.radius > 0) {
+            const rt_vec3 w = toward(point, end), to_center = rt_sub(lamp.center, point);
+            const double s = (double)(lamp.radius * lamp.radius) /
+                             (double)rt_dot(to_center, to_center);
+            rt_vec3 a, b, n = rt_normalize(to_center);
+            rt_basis(n, &a, &b);
+            /* 1 - cos by the sine: no digits are lost */
+            const double sine = (double)rt_length(rt_cross(w, n));
+            const double down = sine * sine / (1 + (double)rt_dot(w, n));
+            two[0] = (float)(down * (1 + sqrt(1 - s)) / s);
+            two[1] = turn_of(rt_dot(w, a), rt_dot(w, b));
+            continue;
+        }
+        const rt_vec3 off = rt_sub(end, lamp.center), n = rt_cross(lamp.u, lamp.v);
+        const float nn = rt_dot(n, n);
+        two[0] = 0.5f + 0.5f * rt_dot(rt_cross(off, lamp.v), n) / nn;
+        two[1] = 0.5f + 0.5f * rt_dot(rt_cross(lamp.u, off), n) / nn;
+    }
+    const bool ball = in[3] > 0;
+    return judge_two((const float(*)[2])uniform_pairs, count,
+                     ball ? "not all directions within the cone are equally likely"
+                          : "not all points along u are equally likely",
+                     ball ? "not the same all around the middle of the ball"
+                          : "not all points along v are equally likely",
+                     why, size);
+}
+
+/* Within 2 %: 1 - <N,h>^2, as textbooks have it, is a small difference of large numbers in float, and
+ * a lobe that is so sharp makes much of what is lost. */
+static int judge_gloss(const float *in, const float *out, int count, char *why,
+                       size_t size)
+{
+    for (int k = 0; k < count; k++) {
+        float expected[2];
+        call_gloss(in + 10 * k, expected);
+        for (int i = 0; i < 2; i++)
+            if (!(fabsf(out[2 * k + i] - expected[i]) <= 1e-4f + 0.02f * expected[i]))
+                return snprintf(why, size, "%s is %.4g, %.4g is right",
+                                i == 0 ? "gloss" : "density", (double)out[2 * k + i],
+                                (double)expected[i]),
+                       k;
+    }
+    return count;
+}
+
+static int judge_length(const float *in, const float *out, int count, char *why,
+                        size_t size)
+{
+    (void)in;
+    for (int k = 0; k < count; k++) {
+        const float *to = out + 3 * k;
+        const float length = rt_length(take_vec(&to));
+        if (!(fabsf(length - 1) < 1e-4f))
+            return snprintf(why, size, "its length is %.6g, not 1", (double)length), k;
+    }
+    return count;
+}
+
+static int judge_mirror(const float *in, const float *out, int count, char *why,
+                        size_t size)
+{
+    for (int k = 0; k < count; k++) {
+        const float *at = in + 9 * k, *to = out + 3 * k;
+        const rt_vec3 n = take_vec(&at), eye = take_vec(&at);
+        const rt_vec3 mirrored = rt_sub(rt_scale(n, 2 * rt_dot(n, eye)), eye);
+        const float off = rt_length(rt_sub(take_vec(&to), mirrored));
+        if (!(off < 0.1f))
+            return snprintf(why, size, "far from the direction of a mirror"), k;
+    }
+    return count;
+}
+
+/* With the facet's normal h = (a x, a y, z) in a basis around N, (x, y, z) mirrors the eye, which
+ * is stretched likewise, into a direction that is uniform on a cap: above -eye.z. */
+static int judge_facets(const float *in, const float *out, int count, char *why,
+                        size_t size)
+{
+    for (int k = 0; k < count; k++) {
+        const float *at = in + 9 * k, *to = out + 3 * k;
+        const rt_vec3 n = take_vec(&at), eye = take_vec(&at), w = take_vec(&to);
+        const float a = sqrtf(2 / (take(&at) + 2));
+        rt_vec3 x, y;
+        rt_basis(n, &x, &y);
+        const rt_vec3 h = rt_add(eye, w);
+        const rt_vec3 m =
+            rt_normalize(rt_vec(rt_dot(h, x) / a, rt_dot(h, y) / a, rt_dot(h, n)));
+        const rt_vec3 e =
+            rt_normalize(rt_vec(a * rt_dot(eye, x), a * rt_dot(eye, y), rt_dot(eye, n)));
+        if (!(rt_length(w) > 0.99f && rt_length(w) < 1.01f))
+            return snprintf(why, size, "its length is not 1"), k;
+        const rt_vec3 c = rt_sub(rt_scale(m, 2 * rt_dot(e, m)), e);
+        uniform_pairs[k][0] = (c.z + e.z) / (1 + e.z);
+        uniform_pairs[k][1] = turn_of(c.x, c.y);
+    }
+    return judge_two((const float(*)[2])uniform_pairs, count,
+                     "the facets are not chosen as often as the eye sees them",
+                     "not the same all around", why, size);
+}
+
+/* From the lens, through the point that the pinhole's ray has in the sharp plane. */
+static int judge_focus(const float *in, const float *out, int count, char *why,
+                       size_t size)
+{
+    for (int k = 0; k < count; k++) {
+        rt_camera camera;
+        rt_lens lens;
+        const float *at = in + 16 * k, *to = out + 6 * k;
+        const rt_ray pinhole = take_pinhole(&at, &camera, &lens), ray = take_ray(&to);
+        const rt_vec3 axis = rt_normalize(camera.direction);
+        const rt_vec3 sharp =
+            rt_scale(pinhole.direction, lens.focus / rt_dot(pinhole.direction, axis));
+        const rt_vec3 off = rt_sub(ray.origin, camera.position);
+        const rt_vec3 way = rt_sub(sharp, off);
+        if (!(fabsf(rt_length(ray.direction) - 1) < 1e-4f))
+            return snprintf(why, size, "its direction's length is not 1"), k;
+        if (!(rt_length(off) < 1.001f * lens.radius + 1e-5f &&
+              fabsf(rt_dot(off, axis)) < 1e-4f))
+            return snprintf(why, size, "it does not begin on the lens"), k;
+        if (!(rt_length(rt_cross(way, ray.direction)) < 1e-3f * rt_length(way) &&
+              rt_dot(way, ray.direction) > 0))
+            return snprintf(why, size, "it passes by the sharp point"), k;
+    }
+    return count;
+}
+
+static int judge_disc(const float *in, const float *out, int count, char *why,
+                      size_t size)
+{
+    const int wrong = judge_focus(in, out, count, why, size);
+    if (wrong != count)
+        return wrong;
+    for (int k = 0; k < count; k++) {
+        rt_camera camera;
+        rt_lens lens;
+        const float *at = in + 16 * k, *to = out + 6 * k;
+        take_pinhole(&at, &camera, &lens);
+        rt_vec3 a, b;
+        rt_basis(rt_normalize(camera.direction), &a, &b);
+        const rt_vec3 off =
+            rt_scale(rt_sub(take_vec(&to), camera.position), 1 / lens.radius);
+        uniform_pairs[k][0] = rt_dot(off, off); /* of equal areas */
+        uniform_pairs[k][1] = turn_of(rt_dot(off, a), rt_dot(off, b));
+    }
+    return judge_two(
+        (const float(*)[2])uniform_pairs, count,
+        "points of the lens are not equally likely near its middle and its rim",
+        "not the same all around the lens", why, size);
+}
+
 /* ---- the table ------------------------------------------------------------------------- */
 
 static const kind kinds[] = {
@@ -828,6 +1347,40 @@ static const kind kinds[] = {
     {"rt_radiance", "background", radiance_sky, NULL, 0},
     {"rt_radiance", "one mirror", radiance_mirror, NULL, 0},
     {"rt_radiance", "indirect light", radiance_mean, judge_mean, MANY},
+    {"rt_fresnel", "straight on", fresnel_straight, NULL, 0},
+    {"rt_fresnel", "from outside, at any angle", fresnel_outside, NULL, 0},
+    {"rt_fresnel", "from inside, where light comes out", fresnel_inside, NULL, 0},
+    {"rt_fresnel", "from inside: total reflection", fresnel_total, NULL, 0},
+    {"rt_refract", "straight on", refract_straight, NULL, 0},
+    {"rt_refract", "into the glass", refract_into, NULL, 0},
+    {"rt_refract", "out of the glass", refract_out, NULL, 0},
+    {"rt_refract", "total reflection: no way through", refract_total, NULL, 0},
+    {"rt_sample_lamp", "points of a ball that are seen", sample_ball, judge_lamp_point,
+     0},
+    {"rt_sample_lamp", "points of a parallelogram", sample_flat, judge_lamp_point, 0},
+    {"rt_sample_lamp", "a ball, evenly", sample_ball, judge_lamp_even, MANY},
+    {"rt_sample_lamp", "a parallelogram, evenly", sample_flat, judge_lamp_even, MANY},
+    {"rt_lamp_density", "a ball", density_ball, NULL, 0},
+    {"rt_lamp_density", "a small ball far away", density_small, NULL, 0},
+    {"rt_lamp_density", "a parallelogram", density_flat, NULL, 0},
+    {"rt_lamp_density", "from within a ball", density_within, NULL, 0},
+    {"rt_mis", "both are likely", mis_both, NULL, 0},
+    {"rt_mis", "one of the two never", mis_never, NULL, 0},
+    {"rt_mis", "very large and very small densities", mis_extreme, NULL, 0},
+    {"rt_sample_gloss", "unit length", gloss_drawn, judge_length, 0},
+    {"rt_sample_gloss", "the sharpest: close to a mirror", gloss_mirror, judge_mirror, 0},
+    {"rt_sample_gloss", "straight on, as dense as it should", gloss_straight,
+     judge_facets, MANY},
+    {"rt_sample_gloss", "at any angle, as dense as it should", gloss_drawn, judge_facets,
+     MANY},
+    {"rt_gloss", "shininess 2 to 50", gloss_wide, NULL, 0},
+    {"rt_gloss", "shininess 200 to 2000", gloss_sharp, judge_gloss, 0},
+    {"rt_gloss", "eye or light below the surface", gloss_below, NULL, 0},
+    {"rt_lens_ray", "through the sharp point, looks along -z", lens_straight, judge_focus,
+     0},
+    {"rt_lens_ray", "looks anywhere", lens_anywhere, judge_focus, 0},
+    {"rt_lens_ray", "points of the lens, evenly", lens_straight, judge_disc, MANY},
+    {"rt_lens_ray", "radius 0: the pinhole's ray", lens_pinhole, NULL, 0},
 };
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };

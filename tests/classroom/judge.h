@@ -107,8 +107,9 @@ static void print_answer(const question *q, int k)
 static int find_wrong(const question *q, char *why, size_t size, bool *same)
 {
     float expected[MAX_OUT], first[MAX_OUT];
-    *same =
-        !q->kind->judge || q->kind->judge == judge_again || q->kind->judge == judge_side;
+    *same = !q->kind->judge || q->kind->judge == judge_again ||
+            q->kind->judge == judge_side || q->kind->judge == judge_length ||
+            q->kind->judge == judge_mirror || q->kind->judge == judge_focus;
     if (q->kind->judge)
         return q->kind->judge(q->in, q->out, q->count, why, size);
     for (int k = 0; k < q->count; k++) {

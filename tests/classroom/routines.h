@@ -7,7 +7,7 @@
 
 #include "../../rt.h"
 
-enum { MAX_IN = 16, MAX_OUT = 10, MAX_FIELDS = 8 };
+enum { MAX_IN = 16, MAX_OUT = 10, MAX_FIELDS = 10 };
 
 typedef struct field {
     const char *name;
@@ -265,6 +265,91 @@ static inline void call_radiance(const float *in, float *out)
     put_vec(&out, rt_radiance(&w.scene, &ray, bounces, &rng));
 }
 
+static inline void call_fresnel(const float *in, float *out)
+{
+    *out = rt_fresnel(in[0], in[1]);
+}
+
+static inline void call_refract(const float *in, float *out)
+{
+    const rt_vec3 incident = take_vec(&in);
+    const rt_vec3 normal = take_vec(&in);
+    rt_vec3 refracted = {0, 0, 0};
+    const bool found = rt_refract(incident, normal, *in, &refracted);
+    *out++ = found ? 1.0f : 0.0f;
+    put_vec(&out, found ? refracted : rt_vec(0, 0, 0));
+}
+
+static inline rt_lamp take_lamp(const float **p)
+{
+    rt_lamp lamp;
+    lamp.center = take_vec(p);
+    lamp.radius = take(p);
+    lamp.u = take_vec(p);
+    lamp.v = take_vec(p);
+    lamp.intensity = rt_vec(1, 1, 1);
+    return lamp;
+}
+
+static inline void call_sample_lamp(const float *in, float *out)
+{
+    const rt_lamp lamp = take_lamp(&in);
+    const rt_vec3 point = take_vec(&in);
+    put_vec(&out, rt_sample_lamp(&lamp, point, in[0], in[1]));
+}
+
+static inline void call_lamp_density(const float *in, float *out)
+{
+    const rt_lamp lamp = take_lamp(&in);
+    const rt_vec3 point = take_vec(&in);
+    *out = rt_lamp_density(&lamp, point, take_vec(&in));
+}
+
+static inline void call_mis(const float *in, float *out)
+{
+    *out = rt_mis(in[0], in[1]);
+}
+
+static inline void call_sample_gloss(const float *in, float *out)
+{
+    const rt_vec3 normal = take_vec(&in);
+    const rt_vec3 to_eye = take_vec(&in);
+    put_vec(&out, rt_sample_gloss(normal, to_eye, in[0], in[1], in[2]));
+}
+
+static inline void call_gloss(const float *in, float *out)
+{
+    const rt_vec3 normal = take_vec(&in);
+    const rt_vec3 to_eye = take_vec(&in);
+    const rt_vec3 to_light = take_vec(&in);
+    out[1] = -1; /* in case that nobody writes there */
+    out[0] = rt_gloss(normal, to_eye, to_light, *in, &out[1]);
+}
+
+/* The pinhole's ray is always rt.h's, of a film of 320 x 240. */
+static inline rt_ray take_pinhole(const float **in, rt_camera *camera, rt_lens *lens)
+{
+    camera->position = take_vec(in);
+    camera->direction = take_vec(in);
+    camera->up = take_vec(in);
+    camera->fov_y = take(in);
+    lens->radius = take(in);
+    lens->focus = take(in);
+    const rt__film film = rt__film_of(camera, 320, 240);
+    const float x = take(in);
+    return rt__film_ray(&film, x, take(in));
+}
+
+static inline void call_lens_ray(const float *in, float *out)
+{
+    rt_camera camera;
+    rt_lens lens;
+    const rt_ray pinhole = take_pinhole(&in, &camera, &lens);
+    const rt_ray ray = rt_lens_ray(&camera, &lens, &pinhole, in[0], in[1]);
+    put_vec(&out, ray.origin);
+    put_vec(&out, ray.direction);
+}
+
 #define RAY                                                                              \
     {"origin", 3},                                                                       \
     {                                                                                    \
@@ -280,6 +365,12 @@ static inline void call_radiance(const float *in, float *out)
 #define SCENE                                                                            \
     {                                                                                    \
         "scene", 1                                                                       \
+    }
+
+#define LAMP                                                                             \
+    {"center", 3}, {"radius", 1}, {"u", 3}, {"v", 3},                                    \
+    {                                                                                    \
+        "point", 3                                                                       \
     }
 
 static const routine routines[] = {
@@ -340,6 +431,47 @@ static const routine routines[] = {
      {SCENE, RAY, {"bounces", 1}, {"pixel", 1}},
      {{"radiance", 3}},
      call_radiance},
+    {"rt_fresnel", 11, {{"cosine", 1}, {"eta", 1}}, {{"reflected", 1}}, call_fresnel},
+    {"rt_refract",
+     11,
+     {{"incident", 3}, {"normal", 3}, {"eta", 1}},
+     {{"goes through", 1}, {"refracted", 3}},
+     call_refract},
+    {"rt_sample_lamp",
+     12,
+     {LAMP, {"r1", 1}, {"r2", 1}},
+     {{"point of the lamp", 3}},
+     call_sample_lamp},
+    {"rt_lamp_density",
+     12,
+     {LAMP, {"direction", 3}},
+     {{"density", 1}},
+     call_lamp_density},
+    {"rt_mis", 12, {{"density", 1}, {"other", 1}}, {{"weight", 1}}, call_mis},
+    {"rt_sample_gloss",
+     13,
+     {{"normal", 3}, {"to_eye", 3}, {"shininess", 1}, {"r1", 1}, {"r2", 1}},
+     {{"direction", 3}},
+     call_sample_gloss},
+    {"rt_gloss",
+     13,
+     {{"normal", 3}, {"to_eye", 3}, {"to_light", 3}, {"shininess", 1}},
+     {{"gloss", 1}, {"density", 1}},
+     call_gloss},
+    {"rt_lens_ray",
+     14,
+     {{"position", 3},
+      {"direction", 3},
+      {"up", 3},
+      {"fov_y", 1},
+      {"radius", 1},
+      {"focus", 1},
+      {"x", 1},
+      {"y", 1},
+      {"r1", 1},
+      {"r2", 1}},
+     {RAY},
+     call_lens_ray},
 };
 
 enum { ROUTINES = sizeof routines / sizeof routines[0] };
