@@ -1,11 +1,12 @@
 /* Chapter 11: glass. */
+#define DEMO "../demos/demo11_glass.c"
 #include "test.h"
 
 static const rt_scene empty; /* all zero */
 static const double pi = 3.14159265358979;
 
 /* Fresnel's formula in double; sin^2 t, 1 and more where there is no way through, in *sin2. */
-static double fresnel(double cosine, double eta, double *sin2)
+static double exact_fresnel(double cosine, double eta, double *sin2)
 {
     *sin2 = (1 - cosine * cosine) / (eta * eta);
     if (*sin2 >= 1)
@@ -66,7 +67,7 @@ static void test_fresnel_against_double(void **state)
     for (int i = 0; i < 1000000; i++) {
         const float cosine = rt_random(&rng), eta = any_eta(&rng);
         double sin2;
-        const double f = fresnel((double)cosine, (double)eta, &sin2);
+        const double f = exact_fresnel((double)cosine, (double)eta, &sin2);
         const double error = fabs((double)rt_fresnel(cosine, eta) - f);
         double *most = fabs(1 - sin2) < 1e-3 ? &worst_near : &worst;
         *most = error > *most ? error : *most;
@@ -222,7 +223,7 @@ static void test_total_reflection_where_it_should_be(void **state)
         const rt_vec3 d = {sine, -cosine, 0}, n = {0, 1, 0};
         rt_vec3 t = {7, 7, 7};
         double sin2;
-        fresnel((double)cosine, (double)eta, &sin2);
+        exact_fresnel((double)cosine, (double)eta, &sin2);
         const bool found = rt_refract(d, n, eta, &t);
         if (fabs(sin2 - 1) > 1e-6)
             wrong += found != (sin2 < 1);
@@ -718,6 +719,34 @@ static void test_guides_look_through_glass(void **state)
     free(image.pixels);
 }
 
+/* ---- the demo ----------------------------------------------------------------------- */
+
+static void test_demo_routines_are_those_of_rt_h(void **state)
+{
+    (void)state;
+    rt_rng rng = rt_rng_start(0, 0, 218);
+    for (int i = 0; i < 100000; i++) {
+        const rt_vec3 n = random_direction(&rng), d = onto(&rng, n);
+        const float eta = any_eta(&rng), cosine = -rt_dot(d, n);
+        rt_vec3 a = {7, 7, 7}, b = a;
+        assert_close(fresnel(cosine, eta), rt_fresnel(cosine, eta), 0);
+        assert_int_equal(refract(d, n, eta, &a), rt_refract(d, n, eta, &b));
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+}
+
+static void test_demo_picture_is_that_of_rt_render(void **state)
+{
+    /* Also by the demo's own routines, and whatever the lanes. */
+    (void)state;
+    rt_image theirs = render_the_demo(40, 30, 4, 1), ours = new_image(40, 30);
+    const rt_options options = {.samples = 4, .bounces = 8, .seed = 1};
+    assert_int_equal(rt_render(&scene_glass, &room_camera, &options, &ours), RT_OK);
+    assert_true(same_pixels(&theirs, &ours));
+    free(theirs.pixels);
+    free(ours.pixels);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -749,6 +778,8 @@ int main(void)
         cmocka_unit_test(test_no_ray_meets_the_surface_that_it_leaves),
         cmocka_unit_test(test_a_box_of_glass_has_no_leaks),
         cmocka_unit_test(test_guides_look_through_glass),
+        cmocka_unit_test(test_demo_routines_are_those_of_rt_h),
+        cmocka_unit_test(test_demo_picture_is_that_of_rt_render),
     };
     return cmocka_run_group_tests_name("11 glass", tests, NULL, NULL);
 }

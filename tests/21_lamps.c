@@ -1,5 +1,13 @@
 /* Chapter 12: lamps with a size. */
+/* The demo puts its own routines in the place of these: not for the tests. */
+#pragma push_macro("rt_sample_lamp")
+#pragma push_macro("rt_lamp_density")
+#pragma push_macro("rt_mis")
+#define DEMO "../demos/demo12_lamps.c"
 #include "test.h"
+#pragma pop_macro("rt_sample_lamp")
+#pragma pop_macro("rt_lamp_density")
+#pragma pop_macro("rt_mis")
 
 static const rt_scene empty; /* all zero */
 static const double pi = 3.14159265358979;
@@ -714,6 +722,39 @@ static void test_the_light_that_a_mirror_lost_is_back(void **state)
     assert_true(doubt(&m) < 0.03 * exact && exact > 0.72 && exact < 0.8);
 }
 
+/* ---- the demo ----------------------------------------------------------------------- */
+
+static void test_demo_routines_are_those_of_rt_h(void **state)
+{
+    (void)state;
+    rt_rng rng = rt_rng_start(0, 0, 238);
+    for (int i = 0; i < 100000; i++) {
+        const rt_lamp lamp = any_lamp(&rng, false);
+        const rt_vec3 point = random_point(&rng, 12);
+        if (rt_length(rt_sub(point, lamp.center)) < 1.01f * lamp.radius)
+            continue;
+        const float r1 = rt_random(&rng);
+        const float r2 = rt_random(&rng);
+        const rt_vec3 a = sample_lamp(&lamp, point, r1, r2),
+                      b = rt_sample_lamp(&lamp, point, r1, r2);
+        assert_memory_equal(&a, &b, sizeof a);
+        assert_close(lamp_density(&lamp, point, b), rt_lamp_density(&lamp, point, b), 0);
+        assert_close(mis(r1, r2), rt_mis(r1, r2), 0);
+    }
+}
+
+static void test_demo_picture_is_that_of_rt_render(void **state)
+{
+    /* Also by the demo's own routines, and whatever the lanes. */
+    (void)state;
+    rt_image theirs = render_the_demo(40, 30, 4, 1), ours = new_image(40, 30);
+    const rt_options options = {.samples = 4, .bounces = 8, .seed = 1};
+    assert_int_equal(rt_render(&scene_lamps, &room_camera, &options, &ours), RT_OK);
+    assert_true(same_pixels(&theirs, &ours));
+    free(theirs.pixels);
+    free(ours.pixels);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -737,6 +778,8 @@ int main(void)
         cmocka_unit_test(test_a_white_room_is_as_bright_as_its_lamp),
         cmocka_unit_test(test_grey_walls_that_shine_in_balance),
         cmocka_unit_test(test_the_light_that_a_mirror_lost_is_back),
+        cmocka_unit_test(test_demo_routines_are_those_of_rt_h),
+        cmocka_unit_test(test_demo_picture_is_that_of_rt_render),
     };
     return cmocka_run_group_tests_name("12 lamps", tests, NULL, NULL);
 }

@@ -1,5 +1,11 @@
 /* Chapter 13: gloss, and the loop that puts part two together. */
+/* The demo puts its own routines in the place of these: not for the tests. */
+#pragma push_macro("rt_sample_gloss")
+#pragma push_macro("rt_gloss")
+#define DEMO "../demos/demo13_gloss.c"
 #include "test.h"
+#pragma pop_macro("rt_sample_gloss")
+#pragma pop_macro("rt_gloss")
 
 static const rt_scene empty; /* all zero */
 static const double pi = 3.14159265358979;
@@ -610,6 +616,39 @@ static void test_a_picture_of_part_one_with_a_table_of_zeros(void **state)
     }
 }
 
+/* ---- the demo ----------------------------------------------------------------------- */
+
+static void test_demo_routines_are_those_of_rt_h(void **state)
+{
+    (void)state;
+    rt_rng rng = rt_rng_start(0, 0, 252);
+    for (int i = 0; i < 100000; i++) {
+        const rt_vec3 eye = any_above(&rng), light = any_above(&rng);
+        const float n = powf(10, uniform(&rng, -1, 5));
+        const float r1 = rt_random(&rng);
+        const float r2 = rt_random(&rng);
+        const rt_vec3 a = sample_gloss(up, eye, n, r1, r2),
+                      b = rt_sample_gloss(up, eye, n, r1, r2);
+        assert_memory_equal(&a, &b, sizeof a);
+        float theirs, ours;
+        assert_close(gloss(up, eye, light, n, &theirs),
+                     rt_gloss(up, eye, light, n, &ours), 0);
+        assert_close(theirs, ours, 0);
+    }
+}
+
+static void test_demo_picture_is_that_of_rt_render(void **state)
+{
+    /* Also by the demo's own routines, and whatever the lanes. */
+    (void)state;
+    rt_image theirs = render_the_demo(40, 30, 4, 1), ours = new_image(40, 30);
+    const rt_options options = {.samples = 4, .bounces = 8, .seed = 1};
+    assert_int_equal(rt_render(&scene_gloss, &room_camera, &options, &ours), RT_OK);
+    assert_true(same_pixels(&theirs, &ours));
+    free(theirs.pixels);
+    free(ours.pixels);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -629,6 +668,8 @@ int main(void)
         cmocka_unit_test(test_the_sharpest_gloss_is_a_mirror),
         cmocka_unit_test(test_part_one_by_the_loop_of_part_two),
         cmocka_unit_test(test_a_picture_of_part_one_with_a_table_of_zeros),
+        cmocka_unit_test(test_demo_routines_are_those_of_rt_h),
+        cmocka_unit_test(test_demo_picture_is_that_of_rt_render),
     };
     return cmocka_run_group_tests_name("13 gloss", tests, NULL, NULL);
 }

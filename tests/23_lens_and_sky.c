@@ -1,4 +1,5 @@
 /* Chapter 14: a lens and a sky. */
+#define DEMO "../demos/demo14_lens_and_sky.c"
 #include "test.h"
 
 static const rt_scene empty; /* all zero */
@@ -386,6 +387,41 @@ static void test_light_from_a_sky(void **state)
     assert_close(sum / 20000, 0.5 * 2 / 3, 5e-3);
 }
 
+/* ---- the demo ----------------------------------------------------------------------- */
+
+static void test_demo_ray_is_rt_lens_ray(void **state)
+{
+    (void)state;
+    rt_rng rng = rt_rng_start(0, 0, 265);
+    for (int i = 0; i < 100000; i++) {
+        const rt_camera camera = any_camera(&rng);
+        const rt_lens lens = any_lens(&rng);
+        const float x = uniform(&rng, 0, 40), y = uniform(&rng, 0, 30);
+        const rt_ray pinhole = rt_camera_ray(&camera, 40, 30, x, y);
+        const float r1 = rt_random(&rng);
+        const float r2 = rt_random(&rng);
+        const rt_ray a = lens_ray(&camera, &lens, pinhole, r1, r2),
+                     b = rt_lens_ray(&camera, &lens, &pinhole, r1, r2);
+        assert_vec(a.origin, b.origin.x, b.origin.y, b.origin.z, 3e-6);
+        assert_vec(a.direction, b.direction.x, b.direction.y, b.direction.z, 1e-5);
+    }
+}
+
+static void test_demo_picture_is_that_of_rt_render(void **state)
+{
+    /* But for roundings. */
+    (void)state;
+    rt_image theirs = render_the_demo(40, 30, 4, 1), ours = new_image(40, 30);
+    const rt_options options = {.samples = 4, .bounces = 8, .seed = 1, .lens = room_lens};
+    assert_int_equal(rt_render(&scene_sky, &room_camera, &options, &ours), RT_OK);
+    double off = 0; /* the lens' ray is rounded in another way */
+    for (int i = 0; i < 40 * 30; i++)
+        off += (double)fabsf(theirs.pixels[i].x - ours.pixels[i].x) / (40 * 30);
+    assert_close(off, 0, 1e-2);
+    free(theirs.pixels);
+    free(ours.pixels);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -403,6 +439,8 @@ int main(void)
         cmocka_unit_test(test_what_a_sky_returns_is_bounded),
         cmocka_unit_test(test_a_sun_is_a_lamp_far_away),
         cmocka_unit_test(test_light_from_a_sky),
+        cmocka_unit_test(test_demo_ray_is_rt_lens_ray),
+        cmocka_unit_test(test_demo_picture_is_that_of_rt_render),
     };
     return cmocka_run_group_tests_name("14 lens and sky", tests, NULL, NULL);
 }
