@@ -1895,20 +1895,20 @@ static inline float rt_meet_lamp(const rt_lamp *lamp, const rt_ray *ray, float t
     return met ? t : 0.0f;
 }
 
-/* The number of the nearest lamp that the ray meets before t_max, not counting the lamp
+/* The number of the best lamp that the ray meets before t_max, not counting the lamp
  * with number but; -1: none. */
 static inline int rt__nearest_lamp(const rt_scene *scene, const rt_ray *ray, float t_max,
                                    int but)
 {
-    int nearest = -1;
+    int best = -1;
     for (int i = 0; i < scene->lamp_count; i++) {
         const float t = i == but ? 0.0f : rt_meet_lamp(&scene->lamps[i], ray, t_max);
         if (t > 0.0f) {
             t_max = t;
-            nearest = i;
+            best = i;
         }
     }
-    return nearest;
+    return best;
 }
 
 /* From P a ball is seen under the angle a to either side of its centre, sin a = R / d. Of
