@@ -1895,7 +1895,7 @@ static inline float rt_meet_lamp(const rt_lamp *lamp, const rt_ray *ray, float t
     return met ? t : 0.0f;
 }
 
-/* The number of the best lamp that the ray meets before t_max, not counting the lamp
+/* The number of the nearest lamp that the ray meets before t_max, not counting the lamp
  * with number but; -1: none. */
 static inline int rt__nearest_lamp(const rt_scene *scene, const rt_ray *ray, float t_max,
                                    int but)

@@ -244,7 +244,7 @@ static void display_lost(void)
 {
     if (open_run && !open_run->v.disturbed && !open_run->v.finished) {
         fprintf(stderr, "%s: the display is gone\n", open_run->v.d->name);
-        finish(open_run, RT_CANCELLED, demo_seconds() - open_run->p.started);
+        complete(open_run, RT_CANCELLED, demo_seconds() - open_run->p.started);
     }
 }
 
