@@ -367,7 +367,7 @@ static inline void rt_sincos(float turns, float *sine, float *cosine)
 /* ====================================================================================
  * Your own routines
  *
- * These are the functions that chapters 1 to 7 are about. You may write any of them
+ * These are the functions that chapters 1 to 14 are about. You may write any of them
  * yourself. Say so in one line before the include, and define yours after it:
  *
  *     #define rt_reflect my_reflect
