@@ -367,7 +367,7 @@ static inline void rt_sincos(float turns, float *sine, float *cosine)
 /* ====================================================================================
  * Your own routines
  *
- * These are the functions that chapters 1 to 7 are about. You may write any of them
+ * These are the functions that chapters 1 to 14 are about. You may write any of them
  * yourself. Say so in one line before the include, and define yours after it:
  *
  *     #define rt_reflect my_reflect
@@ -1900,15 +1900,15 @@ static inline float rt_meet_lamp(const rt_lamp *lamp, const rt_ray *ray, float t
 static inline int rt__nearest_lamp(const rt_scene *scene, const rt_ray *ray, float t_max,
                                    int but)
 {
-    int nearest = -1;
+    int best = -1;
     for (int i = 0; i < scene->lamp_count; i++) {
         const float t = i == but ? 0.0f : rt_meet_lamp(&scene->lamps[i], ray, t_max);
         if (t > 0.0f) {
             t_max = t;
-            nearest = i;
+            best = i;
         }
     }
-    return nearest;
+    return best;
 }
 
 /* From P a ball is seen under the angle a to either side of its centre, sin a = R / d. Of

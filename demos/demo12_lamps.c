@@ -10,19 +10,20 @@
 #include "live.h"
 
 /* Of all directions, the lamp takes up (1 - cos a) / 2, where sin a = R / d. */
-static float one_minus_cosine(const rt_lamp *lamp, rt_vec3 P)
+static float one_minus_cosine(const rt_lamp *lamp, rt_vec3 point)
 {
-    const rt_vec3 to_center = rt_sub(lamp->center, P);
+    const rt_vec3 to_center = rt_sub(lamp->center, point);
     const float s = lamp->radius * lamp->radius / rt_dot(to_center, to_center);
     return s / (1 + sqrtf(1 - s)); /* = 1 - sqrt(1 - s), but no digits are lost */
 }
 
 /* A point of the lamp, each direction to it as likely as any other. */
-static rt_vec3 sample_lamp(const rt_lamp *lamp, rt_vec3 P, float r1, float r2)
+static rt_vec3 sample_lamp(const rt_lamp *lamp, rt_vec3 point, float r1, float r2)
 {
-    const rt_vec3 to_center = rt_sub(lamp->center, P);
+    const rt_vec3 to_center = rt_sub(lamp->center, point);
     const float d = rt_length(to_center);
-    const float down = r2 * one_minus_cosine(lamp, P); /* 1 - cosine of the direction */
+    const float down =
+        r2 * one_minus_cosine(lamp, point); /* 1 - cosine of the direction */
     const float sine = sqrtf(down * (2 - down));
     float s, c;
     rt_sincos(r1, &s, &c);
@@ -32,14 +33,14 @@ static rt_vec3 sample_lamp(const rt_lamp *lamp, rt_vec3 P, float r1, float r2)
                                      rt_scale(n, 1 - down));
     const float off = d * sine, rest = lamp->radius * lamp->radius - off * off;
     const float t = d * (1 - down) - sqrtf(rest > 0 ? rest : 0); /* to its near side */
-    return rt_add(P, rt_scale(direction, t));
+    return rt_add(point, rt_scale(direction, t));
 }
 
 /* With which density; the same for all directions that meet it. */
-static float lamp_density(const rt_lamp *lamp, rt_vec3 P, rt_vec3 direction)
+static float lamp_density(const rt_lamp *lamp, rt_vec3 point, rt_vec3 direction)
 {
     (void)direction;
-    return 1 / (6.28318530718f * one_minus_cosine(lamp, P));
+    return 1 / (6.28318530718f * one_minus_cosine(lamp, point));
 }
 
 /* How much a way of finding light counts, if another might have found it, too. */

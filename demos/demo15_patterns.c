@@ -9,7 +9,7 @@
 
 /* Tiles on the floor, as large as room_tiles says, in two colours by turns. floorf rounds down
  * on both sides of 0, which (int) alone does not. */
-static rt_vec3 tiles(const void *data, rt_vec3 P, rt_vec3 N)
+static rt_vec3 tile(const void *data, rt_vec3 P, rt_vec3 N)
 {
     const pattern_checks *checks = data;
     const int column = (int)floorf(P.x / checks->size);
@@ -32,7 +32,7 @@ static void wrap(const rt_vec3 *pixels, int width, int height)
 
 int main(int argc, char **argv)
 {
-    pattern_surfaces[ROOM_FLOOR].pattern = tiles;
+    pattern_surfaces[ROOM_FLOOR].pattern = tile;
     return demo_main(argc, argv,
                      &(demo){.name = "demo15",
                              .title = "15. Patterns",

@@ -148,7 +148,7 @@ static void print_job(const run *r)
 }
 
 /* It is done, or was interrupted, or failed. */
-static bool finish(run *r, rt_status status, double took)
+static bool complete(run *r, rt_status status, double took)
 {
     viewer *v = &r->v;
     progress_end(&r->p);
@@ -244,7 +244,7 @@ static void display_lost(void)
 {
     if (open_run && !open_run->v.disturbed && !open_run->v.finished) {
         fprintf(stderr, "%s: the display is gone\n", open_run->v.d->name);
-        finish(open_run, RT_CANCELLED, demo_seconds() - open_run->p.started);
+        complete(open_run, RT_CANCELLED, demo_seconds() - open_run->p.started);
     }
 }
 
@@ -278,7 +278,7 @@ static bool refine(run *r)
     const bool wanted = !v->disturbed && !viewer_shows_other(v); /* by the command line */
     const rt_status status = viewer_refine(v, keep_going, r);
     if (status != RT_OK && status != RT_CANCELLED)
-        return finish(r, status, 0.0);
+        return complete(r, status, 0.0);
     if (viewer_is_denoised(v))
         window_draw_in_time(r->win, v, 4.0);
     if (!viewer_is_denoised(v) || status == RT_OK)
@@ -286,7 +286,7 @@ static bool refine(run *r)
     if (!wanted || v->disturbed || (status != RT_OK && !interrupted))
         return true;
     v->finished = true;
-    const bool good = finish(r, status, demo_seconds() - r->p.started);
+    const bool good = complete(r, status, demo_seconds() - r->p.started);
     v->samples = v->image.samples;
     window_was_away(r->win); /* it was writing the file */
     return good;
@@ -337,7 +337,7 @@ static int render_and_save(run *r)
         options.progress = keep_going;
         options.user = r;
         const rt_status status = viewer_render(&r->v, &options);
-        good = finish(r, status, demo_seconds() - r->p.started);
+        good = complete(r, status, demo_seconds() - r->p.started);
     }
     return !good ? FAILED : interrupted ? INTERRUPTED : DONE;
 }

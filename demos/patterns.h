@@ -12,11 +12,11 @@ typedef struct pattern_checks {
 
 static inline rt_vec3 checker_pattern(const void *data, rt_vec3 P, rt_vec3 N)
 {
-    const pattern_checks *tiles = data;
+    const pattern_checks *checks = data;
     (void)N;
-    const int column = (int)floorf(P.x / tiles->size);
-    const int row = (int)floorf(P.z / tiles->size);
-    return (column + row) % 2 == 0 ? tiles->even : tiles->odd;
+    const int column = (int)floorf(P.x / checks->size);
+    const int row = (int)floorf(P.z / checks->size);
+    return (column + row) % 2 == 0 ? checks->even : checks->odd;
 }
 
 /* A random number for each point of a lattice of whole numbers, 0 to 1. */
