@@ -2654,10 +2654,11 @@ typedef enum rt_status {
 typedef rt_vec3 rt_pixel_function(const void *context, float x, float y, rt_rng *rng);
 
 /* Add options->samples samples to every pixel of the image: a random point in the square
- * of the pixel, the ray of the camera through it, rt_radiance along the ray, and the
- * mean. options may be NULL: all defaults. An empty scene gives the background, a scene
- * without lights the part of it that arrives. A scene without a bvh gets one for the time
- * of the call; build it yourself if you render many shapes again and again.
+ * of the pixel, the ray of the camera through it, rt_radiance along the ray (in part two
+ * rt_lens_ray and rt_radiance_mis), and the mean. options may be NULL: all defaults. An
+ * empty scene gives the background, a scene without lights the part of it that arrives. A
+ * scene without a bvh gets one for the time of the call; build it yourself if you render
+ * many shapes again and again.
  *
  * A mean of floats drifts: where most samples are dark and few bright, each dark one is
  * rounded the same way, and of 2^18 samples the mean may be wrong by 0.5 %, of 2^25 by 5
@@ -2727,16 +2728,16 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads);
 /* One point of a path: the ray that was followed, and what it met. */
 typedef struct rt_vertex {
     rt_ray ray;
-    int shape;  /* which it met: spheres first, then boxes; -1: none, background */
-    rt_hit hit; /* all zero if none */
+    rt_hit hit;         /* of the shape, all zero if it met none */
+    int shape;          /* its number: spheres first, then boxes; -1: none, background */
     rt_vec3 throughput; /* how much of the light from here arrives at the camera */
     rt_vec3 light;      /* direct light here, or background; black on a mirror. It adds
                            throughput . light to the value of the sample */
     rt_event event;     /* how the path goes on; if it ends, what the surface is */
-    bool inside;        /* part two: the ray has come through glass; */
+    int lamp;           /* part two: the lamp that it has met, -1: none; */
+    float weight;       /* how much of that lamp counts, see rt_mis; */
     float density;      /* of the direction in which it goes on, 0: it had no choice; */
-    int lamp;           /* the lamp that it has met, -1: none; */
-    float weight;       /* how much of that lamp counts, see rt_mis */
+    bool inside;        /* and has the ray come through glass? */
 } rt_vertex;
 
 /* A question from one point of a path: does it see this light? */
