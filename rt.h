@@ -2092,12 +2092,12 @@ static inline float rt_gloss(rt_vec3 normal, rt_vec3 to_eye, rt_vec3 to_light,
 #endif
 
 /* What a surface that is neither glass nor a perfect mirror does at one of its points. */
-typedef struct rt_finish {
+typedef struct rt_brdf {
     rt_vec3 albedo;
     float shininess; /* 0: matt */
     bool metal;      /* shininess above 0: all gloss, tinted by the albedo; else a matt
                         body under a coat of clear lacquer */
-} rt_finish;
+} rt_brdf;
 
 /* What lacquer reflects straight from above, (1.5 - 1)^2 / (1.5 + 1)^2, and flatter: C.
  * Schlick's approximation of Fresnel's F, 1994. */
@@ -2114,17 +2114,16 @@ static inline float rt__lacquer(float cosine)
 }
 
 /* With which probability the way on is drawn from the gloss, and not from the body. */
-static inline float rt__gloss_chance(const rt_finish *finish, rt_vec3 normal,
-                                     rt_vec3 to_eye)
+static inline float rt__gloss_chance(const rt_brdf *brdf, rt_vec3 normal, rt_vec3 to_eye)
 {
-    if (finish->metal || !(finish->shininess > 0.0f))
-        return finish->metal ? 1.0f : 0.0f;
+    if (brdf->metal || !(brdf->shininess > 0.0f))
+        return brdf->metal ? 1.0f : 0.0f;
     const float f = rt__lacquer(rt_dot(normal, to_eye));
     return f + 0.25f * (1.0f - f);
 }
 
 /* What part of the light from to_light, times <N,to_light>, is sent to the eye, per
- * steradian and channel; and in *density, with which rt_sample_finish chooses to_light.
+ * steradian and channel; and in *density, with which rt_sample_brdf chooses to_light.
  *
  * Of metal albedo . gloss. Of lacquer F . gloss, where F is that of the facets, plus the
  * body, which has what got through the lacquer twice:
@@ -2133,7 +2132,7 @@ static inline float rt__gloss_chance(const rt_finish *finish, rt_vec3 normal,
  *
  * (M. Ashikhmin, P. Shirley, "An anisotropic Phong BRDF model", 2000, with 1.05 = 1 / (1
  * - 1/21), so that a white body without the coat's reflections would lose nothing.) */
-static inline rt_vec3 rt_scatter(const rt_finish *finish, rt_vec3 normal, rt_vec3 to_eye,
+static inline rt_vec3 rt_scatter(const rt_brdf *brdf, rt_vec3 normal, rt_vec3 to_eye,
                                  rt_vec3 to_light, float *density)
 {
     const float eye = rt_dot(normal, to_eye), light = rt_dot(normal, to_light);
@@ -2141,32 +2140,32 @@ static inline rt_vec3 rt_scatter(const rt_finish *finish, rt_vec3 normal, rt_vec
     *density = 0.0f;
     if (!(eye > 0.0f && light > 0.0f))
         return rt_vec(0.0f, 0.0f, 0.0f);
-    if (!(finish->shininess > 0.0f)) {
+    if (!(brdf->shininess > 0.0f)) {
         *density = matt;
-        return rt_scale(finish->albedo, matt);
+        return rt_scale(brdf->albedo, matt);
     }
     float of_gloss;
-    const float lobe = rt_gloss(normal, to_eye, to_light, finish->shininess, &of_gloss);
-    const float chance = rt__gloss_chance(finish, normal, to_eye);
+    const float lobe = rt_gloss(normal, to_eye, to_light, brdf->shininess, &of_gloss);
+    const float chance = rt__gloss_chance(brdf, normal, to_eye);
     *density = chance * of_gloss + (1.0f - chance) * matt;
-    if (finish->metal)
-        return rt_scale(finish->albedo, lobe);
+    if (brdf->metal)
+        return rt_scale(brdf->albedo, lobe);
     const rt_vec3 h = rt__unit(rt_add(to_eye, to_light));
     const float coat = lobe * rt__lacquer(rt_dot(h, to_light));
     const float body = 1.05f * (1.0f - RT__LACQUER) * matt *
                        (1.0f - rt__fifth_power(1.0f - light)) *
                        (1.0f - rt__fifth_power(1.0f - eye));
-    return rt_add(rt_scale(finish->albedo, body), rt_vec(coat, coat, coat));
+    return rt_add(rt_scale(brdf->albedo, body), rt_vec(coat, coat, coat));
 }
 
 /* A direction to go on in, drawn with the density above from r1, r2 in (0, 1). Which of
  * the two, r1 decides, and what is left of it serves once more. */
-static inline rt_vec3 rt_sample_finish(const rt_finish *finish, rt_vec3 normal,
-                                       rt_vec3 to_eye, float r1, float r2)
+static inline rt_vec3 rt_sample_brdf(const rt_brdf *brdf, rt_vec3 normal, rt_vec3 to_eye,
+                                     float r1, float r2)
 {
-    const float chance = rt__gloss_chance(finish, normal, to_eye);
+    const float chance = rt__gloss_chance(brdf, normal, to_eye);
     if (r1 < chance)
-        return rt_sample_gloss(normal, to_eye, finish->shininess, r1 / chance, r2);
+        return rt_sample_gloss(normal, to_eye, brdf->shininess, r1 / chance, r2);
     return rt_sample_cosine(normal, (r1 - chance) / (1.0f - chance), r2);
 }
 
@@ -2268,19 +2267,19 @@ typedef enum rt_event {
     RT_EVENT_LAMP       /* it ends at a lamp with a size */
 } rt_event;
 
-static inline rt_finish rt__finish_of(const rt_surface *surface, const rt_hit *hit)
+static inline rt_brdf rt__brdf_of(const rt_surface *surface, const rt_hit *hit)
 {
-    rt_finish finish;
-    finish.albedo = rt_albedo(surface, hit);
-    finish.shininess = surface->shininess;
-    finish.metal = hit->material->mirror;
-    if (finish.metal && !surface->pattern && rt_is_zero(finish.albedo)) /* chapter 6 */
-        finish.albedo = rt_vec(1.0f, 1.0f, 1.0f);
-    return finish;
+    rt_brdf brdf;
+    brdf.albedo = rt_albedo(surface, hit);
+    brdf.shininess = surface->shininess;
+    brdf.metal = hit->material->mirror;
+    if (brdf.metal && !surface->pattern && rt_is_zero(brdf.albedo)) /* chapter 6 */
+        brdf.albedo = rt_vec(1.0f, 1.0f, 1.0f);
+    return brdf;
 }
 
 /* rt_lambert for a surface with gloss. */
-static inline rt_vec3 rt__glossy_point(const rt_finish *finish, rt_vec3 normal,
+static inline rt_vec3 rt__glossy_point(const rt_brdf *brdf, rt_vec3 normal,
                                        rt_vec3 to_eye, rt_vec3 to_light,
                                        rt_vec3 intensity)
 {
@@ -2288,8 +2287,8 @@ static inline rt_vec3 rt__glossy_point(const rt_finish *finish, rt_vec3 normal,
     if (!(dd > 1e-20f && dd <= FLT_MAX))
         return rt_vec(0.0f, 0.0f, 0.0f);
     float density;
-    const rt_vec3 f = rt_scatter(finish, normal, to_eye,
-                                 rt_scale(to_light, 1.0f / sqrtf(dd)), &density);
+    const rt_vec3 f =
+        rt_scatter(brdf, normal, to_eye, rt_scale(to_light, 1.0f / sqrtf(dd)), &density);
     return rt_scale(rt_mul(f, intensity), 1.0f / dd);
 }
 
@@ -2310,8 +2309,7 @@ static inline bool rt__is_watched(const rt_scene *scene)
 
 /* rt_direct on any surface but glass and perfect mirrors: the lights that are points. */
 static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit,
-                                        const rt_finish *finish, rt_vec3 to_eye,
-                                        rt_rng *rng)
+                                        const rt_brdf *brdf, rt_vec3 to_eye, rt_rng *rng)
 {
     rt_vec3 sum = rt_vec(0.0f, 0.0f, 0.0f);
     for (int i = 0; i < scene->light_count; i++) {
@@ -2326,11 +2324,10 @@ static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit
         rt_vec3 sent = rt_vec(0.0f, 0.0f, 0.0f);
         if (rt_visible(scene, hit->point, hit->normal, light->position) &&
             rt__nearest_lamp(scene, &way, 1.0f, -1) < 0)
-            sent =
-                finish->shininess > 0.0f
-                    ? rt__glossy_point(finish, hit->normal, to_eye, to_light,
-                                       light->intensity)
-                    : rt_lambert(finish->albedo, hit->normal, to_light, light->intensity);
+            sent = brdf->shininess > 0.0f ? rt__glossy_point(brdf, hit->normal, to_eye,
+                                                             to_light, light->intensity)
+                                          : rt_lambert(brdf->albedo, hit->normal,
+                                                       to_light, light->intensity);
         sum = rt_add(sum, sent);
         if (rt__is_watched(scene))
             rt__note_light(scene, i, -1, light->position, sent, 1.0f);
@@ -2339,10 +2336,9 @@ static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit
 }
 
 /* The same for the lamps that have a size: to each of them one direction, with the weight
- * that rt_mis gives it, since rt_sample_finish might have found it, too. */
+ * that rt_mis gives it, since rt_sample_brdf might have found it, too. */
 static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
-                                       const rt_finish *finish, rt_vec3 to_eye,
-                                       rt_rng *rng)
+                                       const rt_brdf *brdf, rt_vec3 to_eye, rt_rng *rng)
 {
     rt_vec3 sum = rt_vec(0.0f, 0.0f, 0.0f);
     for (int i = 0; i < scene->lamp_count; i++) {
@@ -2356,7 +2352,7 @@ static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
         const rt_vec3 toward = rt__unit(way.direction);
         const float aimed = rt_lamp_density(lamp, hit->point, toward);
         float density;
-        const rt_vec3 f = rt_scatter(finish, hit->normal, to_eye, toward, &density);
+        const rt_vec3 f = rt_scatter(brdf, hit->normal, to_eye, toward, &density);
         if (!(aimed > 0.0f && density > 0.0f &&
               rt_dot(hit->normal, way.direction) > 0.0f))
             continue; /* from within the lamp, or behind the surface */
@@ -2439,8 +2435,8 @@ static inline rt_vec3 rt_radiance_mis(const rt_scene *scene, const rt_ray *camer
             return sum;
 
         const rt_vec3 n = hit.normal, to_eye = rt_scale(ray.direction, -1.0f);
-        const rt_finish finish = rt__finish_of(surface, &hit);
-        const bool shiny = finish.shininess > 0.0f;
+        const rt_brdf brdf = rt__brdf_of(surface, &hit);
+        const bool shiny = brdf.shininess > 0.0f;
         rt_vec3 direction;
         rt_event event;
         bool inside = false;
@@ -2459,28 +2455,28 @@ static inline rt_vec3 rt_radiance_mis(const rt_scene *scene, const rt_ray *camer
                 event = RT_EVENT_REFLECTED;
             }
             density = 0.0f;
-        } else if (finish.metal && !shiny) {
+        } else if (brdf.metal && !shiny) {
             direction = rt_reflect(ray.direction, n);
-            throughput = rt_mul(throughput, finish.albedo);
+            throughput = rt_mul(throughput, brdf.albedo);
             event = RT_EVENT_MIRROR;
             density = 0.0f;
         } else {
             const rt_vec3 direct =
-                rt_add(rt__direct_points(scene, &hit, &finish, to_eye, rng),
-                       rt__direct_lamps(scene, &hit, &finish, to_eye, rng));
+                rt_add(rt__direct_points(scene, &hit, &brdf, to_eye, rng),
+                       rt__direct_lamps(scene, &hit, &brdf, to_eye, rng));
             sum = rt_add(sum, rt_mul(throughput, direct));
             if (bounce >= last && !one_more)
                 return sum;
             const float r1 = rt_random(rng);
             const float r2 = rt_random(rng);
-            event = r1 < rt__gloss_chance(&finish, n, to_eye) ? RT_EVENT_GLOSS
-                                                              : RT_EVENT_MATT;
-            direction = rt_sample_finish(&finish, n, to_eye, r1, r2);
-            const rt_vec3 f = rt_scatter(&finish, n, to_eye, direction, &density);
+            event =
+                r1 < rt__gloss_chance(&brdf, n, to_eye) ? RT_EVENT_GLOSS : RT_EVENT_MATT;
+            direction = rt_sample_brdf(&brdf, n, to_eye, r1, r2);
+            const rt_vec3 f = rt_scatter(&brdf, n, to_eye, direction, &density);
             if (!(density > 0.0f))
                 return sum; /* below the surface */
             throughput = rt_mul(throughput, shiny ? rt_scale(f, 1.0f / density)
-                                                  : finish.albedo); /* the same */
+                                                  : brdf.albedo); /* the same */
         }
         if (watched)
             rt__note_event(scene, event, inside, density);
@@ -2520,9 +2516,9 @@ static inline rt_guide rt__first_look_mis(const rt_scene *scene, const rt_ray *c
             return guide;
         }
         const rt_surface *surface = rt_surface_of(scene, &hit);
-        const rt_finish finish = rt__finish_of(surface, &hit);
+        const rt_brdf brdf = rt__brdf_of(surface, &hit);
         const bool glass = surface->eta > 0.0f;
-        const bool mirror = finish.metal && !(finish.shininess > 0.0f) && !glass;
+        const bool mirror = brdf.metal && !(brdf.shininess > 0.0f) && !glass;
         const rt_vec3 to_eye = rt_scale(ray.direction, -1.0f);
         rt_vec3 direction = rt_reflect(ray.direction, hit.normal);
         guide.direct = rt_mul(throughput, surface->emission);
@@ -2540,8 +2536,8 @@ static inline rt_guide rt__first_look_mis(const rt_scene *scene, const rt_ray *c
                 guide.direct =
                     rt_add(guide.direct,
                            rt_mul(throughput,
-                                  rt__direct_points(scene, &hit, &finish, to_eye, rng)));
-            throughput = rt_mul(throughput, finish.albedo);
+                                  rt__direct_points(scene, &hit, &brdf, to_eye, rng)));
+            throughput = rt_mul(throughput, brdf.albedo);
         }
         if (!(mirror || glass) || bounce >= bounces || bounce >= RT__ROULETTE) {
             guide.normal = hit.normal;
@@ -5739,7 +5735,7 @@ RT__INLINE rt__m rt__looked(const rt__job *job, const rt__packet *p, int bounce,
 }
 
 /* rt_first_look, as part of the path. Where the path ends before, since no light is left
- * in it, the guide is still looked for: see rt__step_all. */
+ * in it, the guide is still looked for: see rt__guides_of. */
 RT__NOINLINE void rt__look_first(const rt__job *job, rt__packet *p, int bounce,
                                  rt__m missed, const rt__f3 *light)
 {
@@ -6182,21 +6178,20 @@ RT__INLINE rt__i rt__nearest_lamps(const rt_scene *scene, const rt__f3 *origin,
     return nearest;
 }
 
-/* rt_surface and rt_finish of the shapes that were hit, and which of the lanes ask the
+/* rt_surface and rt_brdf of the shapes that were hit, and which of the lanes ask the
  * lamps: all but glass and perfect mirrors. */
-typedef struct rt__finishes {
+typedef struct rt__brdfs {
     rt__f3 albedo;
     rt__f eta, shininess;
     rt__m glass, metal, shiny, aims;
-} rt__finishes;
+} rt__brdfs;
 
-/* rt__finish_of. */
-RT__INLINE rt__finishes rt__finishes_of(const rt__job *job, const rt__hits *hits,
-                                        rt__m lanes)
+/* rt__brdf_of. */
+RT__INLINE rt__brdfs rt__brdfs_of(const rt__job *job, const rt__hits *hits, rt__m lanes)
 {
     const rt_scene *scene = job->scene;
     const rt__f zero = rt__all(0.0f), one = rt__all(1.0f);
-    rt__finishes f;
+    rt__brdfs f;
     f.metal = lanes & rt__less(zero, hits->kind);
     const rt__f most = rt__fmax(hits->albedo.x, rt__fmax(hits->albedo.y, hits->albedo.z));
     f.albedo = rt__vselect(f.metal & rt__no(rt__less(zero, most)), rt__vec(one, one, one),
@@ -6236,7 +6231,7 @@ RT__INLINE rt__f rt__coat(rt__f cosine)
 }
 
 /* rt__gloss_chance. */
-RT__INLINE rt__f rt__chances(const rt__finishes *f, rt__f eye)
+RT__INLINE rt__f rt__chances(const rt__brdfs *f, rt__f eye)
 {
     const rt__f zero = rt__all(0.0f), one = rt__all(1.0f), coat = rt__coat(eye);
     const rt__f chance = coat + 0.25f * (1.0f - coat);
@@ -6244,8 +6239,8 @@ RT__INLINE rt__f rt__chances(const rt__finishes *f, rt__f eye)
 }
 
 /* rt_gloss and the rest of rt_scatter, where there is gloss. */
-RT__INLINE rt__f3 rt__gloss(const rt__finishes *f, rt__f3 n, rt__f3 to_eye,
-                            rt__f3 to_light, rt__f *density)
+RT__INLINE rt__f3 rt__gloss(const rt__brdfs *f, rt__f3 n, rt__f3 to_eye, rt__f3 to_light,
+                            rt__f *density)
 {
     const rt__f zero = rt__all(0.0f);
     const rt__f a2 = 2.0f / (f->shininess + 2.0f);
@@ -6267,7 +6262,7 @@ RT__INLINE rt__f3 rt__gloss(const rt__finishes *f, rt__f3 n, rt__f3 to_eye,
 }
 
 /* rt_scatter. */
-RT__INLINE rt__f3 rt__scatter(const rt__finishes *f, rt__m lanes, rt__f3 n, rt__f3 to_eye,
+RT__INLINE rt__f3 rt__scatter(const rt__brdfs *f, rt__m lanes, rt__f3 n, rt__f3 to_eye,
                               rt__f3 to_light, rt__f *density)
 {
     const rt__f zero = rt__all(0.0f);
@@ -6287,8 +6282,8 @@ RT__INLINE rt__f3 rt__scatter(const rt__finishes *f, rt__m lanes, rt__f3 n, rt__
     return rt__vselect(above, sent, rt__vec(zero, zero, zero));
 }
 
-/* rt_sample_finish, with rt_sample_gloss. Both it and rt_sample_cosine turn a basis. */
-RT__INLINE rt__f3 rt__choose(const rt__finishes *f, rt__m lanes, rt__f3 n, rt__f3 to_eye,
+/* rt_sample_brdf, with rt_sample_gloss. Both it and rt_sample_cosine turn a basis. */
+RT__INLINE rt__f3 rt__choose(const rt__brdfs *f, rt__m lanes, rt__f3 n, rt__f3 to_eye,
                              rt__f r1, rt__f r2)
 {
     const rt__f zero = rt__all(0.0f);
@@ -6317,7 +6312,7 @@ RT__INLINE rt__f3 rt__choose(const rt__finishes *f, rt__m lanes, rt__f3 n, rt__f
 
 /* rt__direct_points, with rt__glossy_point. */
 RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
-                                  const rt__finishes *f, rt__f3 to_eye, uint64_t *rays)
+                                  const rt__brdfs *f, rt__f3 to_eye, uint64_t *rays)
 {
     const rt_scene *scene = job->scene;
     const rt__hits *hits = &p->hits;
@@ -6356,7 +6351,7 @@ RT__INLINE rt__f3 rt__from_points(const rt__job *job, const rt__packet *p,
 
 /* rt__direct_lamps. */
 RT__INLINE rt__f3 rt__from_lamps(const rt__job *job, const rt__packet *p,
-                                 const rt__finishes *f, rt__f3 to_eye, uint64_t *rays)
+                                 const rt__brdfs *f, rt__f3 to_eye, uint64_t *rays)
 {
     const rt_scene *scene = job->scene;
     const rt__hits *hits = &p->hits;
@@ -6443,9 +6438,9 @@ RT__INLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
 }
 
 /* rt__first_look_mis, up to the first glass. Through that it looks straight on, which the
- * path does not: from there on it goes alone, see rt__step_all. */
+ * path does not: from there on it goes alone, see rt__guides_of. */
 RT__NOINLINE void rt__look_first_mis(const rt__job *job, rt__packet *p, int bounce,
-                                     const rt__finishes *f, rt__m mirror,
+                                     const rt__brdfs *f, rt__m mirror,
                                      const rt__f3 *points)
 {
     const rt__m ends = rt__looked(job, p, bounce, mirror) & rt__no(f->glass);
@@ -6472,7 +6467,7 @@ RT__INLINE void rt__set_out_mis(const rt__job *job, rt__packet *p, rt__m below,
 }
 
 /* Of the lanes that aim: the light of the lamps, and a direction that is drawn. */
-RT__INLINE void rt__draw_way(const rt__job *job, rt__packet *p, const rt__finishes *f,
+RT__INLINE void rt__draw_way(const rt__job *job, rt__packet *p, const rt__brdfs *f,
                              rt__f3 points, rt__f r1, rt__f r2, uint64_t *rays)
 {
     const rt__f3 n = p->hits.normal;
@@ -6502,7 +6497,7 @@ RT__NOINLINE void rt__pass_on(const rt__job *job, rt__packet *p, int bounce,
     const rt__f zero = rt__all(0.0f);
     const rt__u pair = (rt__u)zero + 2u, pairs = pair * (uint32_t)job->scene->lamp_count;
     const rt__f3 n = p->hits.normal, u = p->direction;
-    const rt__finishes f = rt__finishes_of(job, &p->hits, p->lanes);
+    const rt__brdfs f = rt__brdfs_of(job, &p->hits, p->lanes);
     const rt__m mirror = f.metal & rt__no(f.shiny | f.glass);
     const rt__m none = {0};
 
@@ -6540,6 +6535,11 @@ RT__INLINE uint64_t rt__trace_mis(const rt__job *job, rt__packet *packets, int c
     const int last = job->options.bounces;
     const bool one_more = job->scene->lamp_count > 0 || job->scene->surfaces;
     uint64_t rays = 0;
+    for (int k = 0; k < count; k++) {
+        packets[k].from = packets[k].place.origin;
+        packets[k].density = rt__all(0.0f);
+        packets[k].hits.shape = (rt__i)packets[k].density;
+    }
     for (int bounce = 0;; bounce++) {
         bool done = true;
         for (int k = 0; k < count; k++) {
@@ -6636,22 +6636,26 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     p->hits.point = rt__vall(film->position);
     p->hits.normal = p->sum;
     p->hits.left = (rt__i)zero + RT__NOWHERE;
-    p->hits.shape = (rt__i)zero;
     if (job->options.lens.radius > 0.0f)
         rt__through_lens(job, p);
-    p->from = p->hits.point;
-    p->density = zero;
     rt__set_out(job, p, none);
 }
 
-RT__INLINE rt_guide rt__guide_of(const rt__packet *p, int lane)
+/* The guides of the pixels from number first on. Those that the path did not find, the
+ * chapters look for: few of them, or what is first seen is glass. */
+RT__NOINLINE void rt__guides_of(const rt__job *job, const rt__packet *p, int sample,
+                                int first, int last, rt_guide *guides)
 {
-    rt_guide guide;
-    guide.normal = rt__lane(&p->guide_normal, lane);
-    guide.point = rt__lane(&p->guide_point, lane);
-    guide.albedo = rt__lane(&p->guide_albedo, lane);
-    guide.direct = guide.half = rt__lane(&p->guide_direct, lane);
-    return guide;
+    const unsigned alone = rt__bits(p->looking | p->alone);
+    for (int lane = 0; lane < RT__LANES && first + lane < last; lane++) {
+        rt_guide *guide = &guides[lane];
+        guide->normal = rt__lane(&p->guide_normal, lane);
+        guide->point = rt__lane(&p->guide_point, lane);
+        guide->albedo = rt__lane(&p->guide_albedo, lane);
+        guide->direct = guide->half = rt__lane(&p->guide_direct, lane);
+        if ((alone >> lane & 1u) != 0)
+            *guide = rt__guide(job, first + lane, rt__start(job, sample, first + lane));
+    }
 }
 
 /* rt__step_pixels with rt__pixel. */
@@ -6668,14 +6672,10 @@ RT__INLINE uint64_t rt__step_all(const rt__job *job, int sample, int first, int 
         rays += part_two ? rt__trace_mis(job, packets, count, watch)
                          : rt__trace(job, packets, count, watch);
         for (int k = 0; k < count; k++) {
-            const unsigned alone = rt__bits(packets[k].looking | packets[k].alone);
-            for (int lane = 0; lane < RT__LANES && i < last; lane++, i++) {
+            if (guides)
+                rt__guides_of(job, &packets[k], sample, i, last, guides + (i - first));
+            for (int lane = 0; lane < RT__LANES && i < last; lane++, i++)
                 values[i - first] = rt__lane(&packets[k].sum, lane);
-                if (guides)
-                    guides[i - first] = (alone >> lane & 1u) != 0
-                                            ? rt__guide(job, i, rt__start(job, sample, i))
-                                            : rt__guide_of(&packets[k], lane);
-            }
         }
     }
     return rays;

@@ -436,7 +436,7 @@ static void check_event(const rt_vertex *v, const rt_vertex *next, bool roulette
     const rt_surface *surface = &finishes[v->shape];
     const rt_vec3 u = v->ray.direction, n = v->hit.normal, w = next->ray.direction;
     const bool inside = rt_is_inside(&part_two, &v->hit);
-    const rt_finish finish = rt__finish_of(surface, &v->hit);
+    const rt_brdf finish = rt__brdf_of(surface, &v->hit);
     rt_vec3 part = {1, 1, 1}, expected = {0, 0, 0};
     float density = 0;
     switch (v->event) {
@@ -539,7 +539,7 @@ static void test_two_each_lamp_was_aimed_at(void **state)
             const rt_vertex *v = &vertices[s->vertex];
             const rt_vec3 n = v->hit.normal, to_eye = rt_scale(v->ray.direction, -1);
             const rt_vec3 end = rt_at(&s->ray, 1), way = rt_sub(end, v->hit.point);
-            const rt_finish finish = rt__finish_of(&finishes[v->shape], &v->hit);
+            const rt_brdf finish = rt__brdf_of(&finishes[v->shape], &v->hit);
             assert_true(v->shape >= METAL);
             assert_true((s->light < 0) != (s->lamp < 0));
             assert_close(s->dd, rt_dot(way, way), 1e-4 * (double)s->dd);

@@ -21,9 +21,9 @@ static rt_vec3 any_above(rt_rng *rng)
     return at_cosine(cosine, turn);
 }
 
-static rt_finish finish_of(float shininess, bool metal, float albedo)
+static rt_brdf finish_of(float shininess, bool metal, float albedo)
 {
-    rt_finish finish = {{albedo, albedo, albedo}, shininess, metal};
+    rt_brdf finish = {{albedo, albedo, albedo}, shininess, metal};
     return finish;
 }
 
@@ -112,7 +112,7 @@ static void test_below_the_surface_there_is_none(void **state)
     assert_close(rt_gloss(up, rt_vec(1, 0, 0), above, 10, &density), 0, 0);
     assert_close(density, 0, 0);
     for (int k = 0; k < 3; k++) {
-        const rt_finish finish = finish_of(k ? 50 : 0, k == 1, 1);
+        const rt_brdf finish = finish_of(k ? 50 : 0, k == 1, 1);
         density = 7;
         assert_vec(rt_scatter(&finish, up, above, below, &density), 0, 0, 0, 0);
         assert_close(density, 0, 0);
@@ -133,9 +133,8 @@ static void test_light_may_go_either_way(void **state)
         if (a.z < 0.01f || b.z < 0.01f)
             continue;
         const float n = i % 2 ? 20 : 400;
-        const rt_finish finishes[3] = {finish_of(0, false, 0.7f),
-                                       finish_of(n, true, 0.7f),
-                                       finish_of(n, false, 0.7f)};
+        const rt_brdf finishes[3] = {finish_of(0, false, 0.7f), finish_of(n, true, 0.7f),
+                                     finish_of(n, false, 0.7f)};
         for (int k = 0; k < 3; k++) {
             float density;
             const float there = rt_scatter(&finishes[k], up, a, b, &density).x / b.z;
@@ -175,7 +174,7 @@ static double slope_at(double u, double width, double *speed)
     return u < 0 ? -width * (e - 1) : width * (e - 1);
 }
 
-static void check_chi_square(const rt_finish *finish, bool whole, float cosine,
+static void check_chi_square(const rt_brdf *finish, bool whole, float cosine,
                              uint32_t seed)
 {
     static double expected[CELLS * CELLS];
@@ -189,7 +188,7 @@ static void check_chi_square(const rt_finish *finish, bool whole, float cosine,
     for (int n = 0; n < DRAWN; n++) {
         const float r1 = rt_random(&rng);
         const float r2 = rt_random(&rng);
-        const rt_vec3 d = whole ? rt_sample_finish(finish, up, eye, r1, r2)
+        const rt_vec3 d = whole ? rt_sample_brdf(finish, up, eye, r1, r2)
                                 : rt_sample_gloss(up, eye, finish->shininess, r1, r2);
         assert_close(rt_length(d), 1, 2e-6);
         if (!(d.z > 0)) {
@@ -254,7 +253,7 @@ static void test_gloss_is_drawn_with_the_density_said(void **state)
 {
     (void)state;
     for (int k = 0; k < 12; k++) {
-        const rt_finish metal = finish_of(sharpness[k / 3], true, 1);
+        const rt_brdf metal = finish_of(sharpness[k / 3], true, 1);
         check_chi_square(&metal, false, cosines[k % 3], 242 + (uint32_t)k);
     }
 }
@@ -263,11 +262,11 @@ static void test_a_coat_is_drawn_with_the_density_said(void **state)
 {
     (void)state;
     for (int k = 0; k < 12; k++) {
-        const rt_finish plastic = finish_of(sharpness[k / 3], false, 1);
+        const rt_brdf plastic = finish_of(sharpness[k / 3], false, 1);
         check_chi_square(&plastic, true, cosines[k % 3], 260 + (uint32_t)k);
     }
     for (int k = 0; k < 3; k++) {
-        const rt_finish metal = finish_of(50, true, 1), matt = finish_of(0, false, 1);
+        const rt_brdf metal = finish_of(50, true, 1), matt = finish_of(0, false, 1);
         check_chi_square(&metal, true, cosines[k], 280 + (uint32_t)k);
         check_chi_square(&matt, true, cosines[k], 290 + (uint32_t)k);
     }
@@ -277,8 +276,8 @@ static void test_the_chance_of_the_gloss_is_a_chance(void **state)
 {
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 243);
-    const rt_finish plastic = finish_of(50, false, 1), metal = finish_of(50, true, 1),
-                    matt = finish_of(0, false, 1);
+    const rt_brdf plastic = finish_of(50, false, 1), metal = finish_of(50, true, 1),
+                  matt = finish_of(0, false, 1);
     for (int i = 0; i < 10000; i++) {
         const rt_vec3 eye = any_above(&rng);
         const float chance = rt__gloss_chance(&plastic, up, eye);
@@ -291,7 +290,7 @@ static void test_the_chance_of_the_gloss_is_a_chance(void **state)
 /* ---- energy ------------------------------------------------------------------------- */
 
 /* What part of the light from all sides is sent to the eye. */
-static mean albedo_of(const rt_finish *finish, float cosine, int n)
+static mean albedo_of(const rt_brdf *finish, float cosine, int n)
 {
     mean m = {0};
     const rt_vec3 eye = at_cosine(cosine, 0.4f);
@@ -300,7 +299,7 @@ static mean albedo_of(const rt_finish *finish, float cosine, int n)
         /* a grid, moved a little: few points tell much */
         const float r1 = ((float)(i % 300) + rt_random(&rng)) / 300;
         const float r2 = ((float)(i / 300 % 300) + rt_random(&rng)) / 300;
-        const rt_vec3 d = rt_sample_finish(finish, up, eye, r1, r2);
+        const rt_vec3 d = rt_sample_brdf(finish, up, eye, r1, r2);
         float density;
         const float f = rt_scatter(finish, up, eye, d, &density).x;
         add(&m, density > 0 ? (double)(f / density) : 0);
@@ -318,13 +317,13 @@ static void test_the_lobes_albedo(void **state)
                  n10[] = {0.779, 0.766, 0.744, 0.764, 0.812};
     for (int k = 0; k < 5; k++) {
         const float cosine = (float)cos(degrees[k] * pi / 180);
-        const rt_finish sharp = finish_of(50, true, 1), wide = finish_of(10, true, 1);
+        const rt_brdf sharp = finish_of(50, true, 1), wide = finish_of(10, true, 1);
         const mean a = albedo_of(&sharp, cosine, 90000),
                    b = albedo_of(&wide, cosine, 90000);
         assert_close(mean_of(&a), n50[k], 1e-3);
         assert_close(mean_of(&b), n10[k], 1e-3);
     }
-    const rt_finish two = finish_of(2, true, 1);
+    const rt_brdf two = finish_of(2, true, 1);
     const mean m = albedo_of(&two, 1, 90000);
     assert_in_range((int)(1000 * mean_of(&m)), 450, 560);
 }
@@ -334,7 +333,7 @@ static void test_no_finish_makes_light(void **state)
     (void)state;
     for (int k = 0; k < 20; k++)
         for (int metal = 0; metal < 2; metal++) {
-            const rt_finish finish = finish_of(powf(10, (float)(k % 5)), metal != 0, 1);
+            const rt_brdf finish = finish_of(powf(10, (float)(k % 5)), metal != 0, 1);
             const float cosine = (float)(k / 5 + 1) * 0.25f;
             const mean m = albedo_of(&finish, cosine, 90000);
             if (!(mean_of(&m) <= 1.001 + doubt(&m) / 8 && mean_of(&m) > 0.4))
@@ -351,7 +350,7 @@ static void test_the_body_under_the_coat(void **state)
     (void)state;
     mean m = {0};
     rt_rng rng = rt_rng_start(0, 0, 245);
-    const rt_finish white = finish_of(1e6f, false, 1), black = finish_of(1e6f, false, 0);
+    const rt_brdf white = finish_of(1e6f, false, 1), black = finish_of(1e6f, false, 0);
     for (int i = 0; i < 400000; i++) {
         float r[4], density;
         for (int k = 0; k < 4; k++)
@@ -374,7 +373,7 @@ static void test_a_glossy_ball_in_an_even_light(void **state)
         rt_sphere sphere = ball;
         sphere.material.mirror = metal != 0;
         const rt_surface surface = {.shininess = 50};
-        const rt_finish finish = finish_of(50, metal != 0, 0.9f);
+        const rt_brdf finish = finish_of(50, metal != 0, 0.9f);
         rt_scene scene = empty;
         scene.spheres = &sphere;
         scene.sphere_count = 1;
@@ -422,7 +421,7 @@ static void test_a_light_that_is_a_point_on_gloss(void **state)
         const rt_ray ray = ray_of(from, rt_scale(to_eye, -1));
         rt_rng rng = rt_rng_start(0, 0, 0);
         const rt_vec3 seen = rt_radiance_mis(&scene, &ray, 0, &rng);
-        const rt_finish finish = finish_of(n, k % 2 != 0, 0.5f);
+        const rt_brdf finish = finish_of(n, k % 2 != 0, 0.5f);
         float density;
         const rt_vec3 f =
             rt_scatter(&finish, normal, to_eye, rt_normalize(light.position), &density);
@@ -451,7 +450,7 @@ static void test_three_ways_to_a_lamp_one_mean(void **state)
         rt_box box = floor_box;
         box.material.mirror = k < 6;
         const rt_surface surface = {.shininess = n};
-        const rt_finish finish = finish_of(n, k < 6, 0.5f);
+        const rt_brdf finish = finish_of(n, k < 6, 0.5f);
         rt_scene scene = on_the_floor(&box, &surface);
         scene.lamps = &lamp;
         scene.lamp_count = 1;
@@ -468,7 +467,7 @@ static void test_three_ways_to_a_lamp_one_mean(void **state)
             add(&aim, (double)(f * l / rt_lamp_density(&lamp, origin, u)));
             const float r3 = rt_random(&rng);
             const float r4 = rt_random(&rng);
-            const rt_vec3 w = rt_sample_finish(&finish, normal, to_eye, r3, r4);
+            const rt_vec3 w = rt_sample_brdf(&finish, normal, to_eye, r3, r4);
             f = rt_scatter(&finish, normal, to_eye, w, &density).x;
             const rt_ray way = ray_of(origin, w);
             const bool met = density > 0 && rt_meet_lamp(&lamp, &way, FLT_MAX) > 0;

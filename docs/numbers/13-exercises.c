@@ -68,14 +68,14 @@ static void furnace(void)
 static void mixture(void)
 {
     const rt_vec3 eye = eye_at(45);
-    const rt_finish finish = {{1, 1, 1}, 300, false};
+    const rt_brdf finish = {{1, 1, 1}, 300, false};
     const float chance = rt__gloss_chance(&finish, N, eye);
     double right = 0, right2 = 0, wrong = 0;
     const int n = 4000000;
     for (int i = 0; i < n; i++) {
         float both, gloss;
         const float r1 = rt_random(&rng), r2 = rt_random(&rng);
-        const rt_vec3 L = rt_sample_finish(&finish, N, eye, r1, r2);
+        const rt_vec3 L = rt_sample_brdf(&finish, N, eye, r1, r2);
         const float value = rt_scatter(&finish, N, eye, L, &both).x;
         rt_gloss(N, eye, L, 300, &gloss);
         if (!(both > 0))

@@ -7,7 +7,7 @@
 
 enum { AIM, CHANCE, BOTH, WAYS, POINTS = 20000, SAMPLES = 64 };
 
-static float one(int way, const rt_lamp *lamp, const rt_finish *finish, rt_vec3 P,
+static float one(int way, const rt_lamp *lamp, const rt_brdf *finish, rt_vec3 P,
                  rt_vec3 N, rt_vec3 eye, rt_rng *rng)
 {
     float r[4], sum = 0, density;
@@ -21,7 +21,7 @@ static float one(int way, const rt_lamp *lamp, const rt_finish *finish, rt_vec3 
         sum += f * light / aimed * (way == BOTH ? rt_mis(aimed, density) : 1);
     }
     if (way != AIM) {
-        const rt_vec3 L = rt_sample_finish(finish, N, eye, r[2], r[3]);
+        const rt_vec3 L = rt_sample_brdf(finish, N, eye, r[2], r[3]);
         const float f = rt_scatter(finish, N, eye, L, &density).x;
         const rt_ray ray = {P, L};
         if (density > 0 && rt_meet_lamp(lamp, &ray, FLT_MAX) > 0)
@@ -32,7 +32,7 @@ static float one(int way, const rt_lamp *lamp, const rt_finish *finish, rt_vec3 
 }
 
 /* The root of the mean variance of a pixel of 32 samples, over the mean of all pixels. */
-static double noise_of(int way, const rt_lamp *lamp, const rt_finish *finish)
+static double noise_of(int way, const rt_lamp *lamp, const rt_brdf *finish)
 {
     rt_rng rng = rt_rng_start(0, 0, 7);
     double mean = 0, variance = 0;
@@ -62,7 +62,7 @@ int main(void)
     for (int row = 0; row < 5; row++) {
         const rt_lamp lamp = {
             .center = {-10, 33, 57}, .radius = radii[row], .intensity = {1, 1, 1}};
-        const rt_finish finish = {{1, 1, 1}, sharp[row], true};
+        const rt_brdf finish = {{1, 1, 1}, sharp[row], true};
         double noise[WAYS];
         printf("| %g | %g |", sharp[row], radii[row]);
         for (int way = 0; way < WAYS; way++) {
