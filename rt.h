@@ -5738,7 +5738,7 @@ RT__INLINE rt__m rt__looked(const rt__job *job, const rt__packet *p, int bounce,
 }
 
 /* rt_first_look, as part of the path. Where the path ends before, since no light is left
- * in it, the guide is still looked for: see rt__step_all. */
+ * in it, the guide is still looked for: see rt__guides_of. */
 RT__NOINLINE void rt__look_first(const rt__job *job, rt__packet *p, int bounce,
                                  rt__m missed, const rt__f3 *light)
 {
@@ -6441,7 +6441,7 @@ RT__INLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
 }
 
 /* rt__first_look_mis, up to the first glass. Through that it looks straight on, which the
- * path does not: from there on it goes alone, see rt__step_all. */
+ * path does not: from there on it goes alone, see rt__guides_of. */
 RT__NOINLINE void rt__look_first_mis(const rt__job *job, rt__packet *p, int bounce,
                                      const rt__brdfs *f, rt__m mirror,
                                      const rt__f3 *points)
@@ -6538,6 +6538,11 @@ RT__INLINE uint64_t rt__trace_mis(const rt__job *job, rt__packet *packets, int c
     const int last = job->options.bounces;
     const bool one_more = job->scene->lamp_count > 0 || job->scene->surfaces;
     uint64_t rays = 0;
+    for (int k = 0; k < count; k++) {
+        packets[k].from = packets[k].place.origin;
+        packets[k].density = rt__all(0.0f);
+        packets[k].hits.shape = (rt__i)packets[k].density;
+    }
     for (int bounce = 0;; bounce++) {
         bool done = true;
         for (int k = 0; k < count; k++) {
@@ -6634,22 +6639,26 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     p->hits.point = rt__vall(film->position);
     p->hits.normal = p->sum;
     p->hits.left = (rt__i)zero + RT__NOWHERE;
-    p->hits.shape = (rt__i)zero;
     if (job->options.lens.radius > 0.0f)
         rt__through_lens(job, p);
-    p->from = p->hits.point;
-    p->density = zero;
     rt__set_out(job, p, none);
 }
 
-RT__INLINE rt_guide rt__guide_of(const rt__packet *p, int lane)
+/* The guides of the pixels from number first on. Those that the path did not find, the
+ * chapters look for: few of them, or what is first seen is glass. */
+RT__NOINLINE void rt__guides_of(const rt__job *job, const rt__packet *p, int sample,
+                                int first, int last, rt_guide *guides)
 {
-    rt_guide guide;
-    guide.normal = rt__lane(&p->guide_normal, lane);
-    guide.point = rt__lane(&p->guide_point, lane);
-    guide.albedo = rt__lane(&p->guide_albedo, lane);
-    guide.direct = guide.half = rt__lane(&p->guide_direct, lane);
-    return guide;
+    const unsigned alone = rt__bits(p->looking | p->alone);
+    for (int lane = 0; lane < RT__LANES && first + lane < last; lane++) {
+        rt_guide *guide = &guides[lane];
+        guide->normal = rt__lane(&p->guide_normal, lane);
+        guide->point = rt__lane(&p->guide_point, lane);
+        guide->albedo = rt__lane(&p->guide_albedo, lane);
+        guide->direct = guide->half = rt__lane(&p->guide_direct, lane);
+        if ((alone >> lane & 1u) != 0)
+            *guide = rt__guide(job, first + lane, rt__start(job, sample, first + lane));
+    }
 }
 
 /* rt__step_pixels with rt__pixel. */
@@ -6666,14 +6675,10 @@ RT__INLINE uint64_t rt__step_all(const rt__job *job, int sample, int first, int 
         rays += part_two ? rt__trace_mis(job, packets, count, watch)
                          : rt__trace(job, packets, count, watch);
         for (int k = 0; k < count; k++) {
-            const unsigned alone = rt__bits(packets[k].looking | packets[k].alone);
-            for (int lane = 0; lane < RT__LANES && i < last; lane++, i++) {
+            if (guides)
+                rt__guides_of(job, &packets[k], sample, i, last, guides + (i - first));
+            for (int lane = 0; lane < RT__LANES && i < last; lane++, i++)
                 values[i - first] = rt__lane(&packets[k].sum, lane);
-                if (guides)
-                    guides[i - first] = (alone >> lane & 1u) != 0
-                                            ? rt__guide(job, i, rt__start(job, sample, i))
-                                            : rt__guide_of(&packets[k], lane);
-            }
         }
     }
     return rays;
