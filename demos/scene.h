@@ -110,7 +110,7 @@ static MOVABLE rt_lens room_lens = {.radius = 2.5f, .focus = 81};
 
 static const pattern_checks room_tiles = {
     10, {0.80f, 0.80f, 0.80f}, {0.12f, 0.12f, 0.14f}};
-static MOVABLE pattern_picture room_picture = {.ball = &room_spheres[ROOM_BALL]};
+static pattern_picture room_picture = {.ball = &room_spheres[ROOM_BALL]};
 
 static rt_surface pattern_surfaces[ROOM_SHAPES] = {
     [ROOM_BALL] = {.shininess = 300,

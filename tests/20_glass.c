@@ -747,6 +747,12 @@ static void test_demo_picture_is_that_of_rt_render(void **state)
     free(ours.pixels);
 }
 
+static void test_demo_picture(void **state)
+{
+    (void)state;
+    check_golden();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -780,6 +786,7 @@ int main(void)
         cmocka_unit_test(test_guides_look_through_glass),
         cmocka_unit_test(test_demo_routines_are_those_of_rt_h),
         cmocka_unit_test(test_demo_picture_is_that_of_rt_render),
+        cmocka_unit_test(test_demo_picture),
     };
     return cmocka_run_group_tests_name("11 glass", tests, NULL, NULL);
 }

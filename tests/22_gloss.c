@@ -648,6 +648,12 @@ static void test_demo_picture_is_that_of_rt_render(void **state)
     free(ours.pixels);
 }
 
+static void test_demo_picture(void **state)
+{
+    (void)state;
+    check_golden();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -669,6 +675,7 @@ int main(void)
         cmocka_unit_test(test_a_picture_of_part_one_with_a_table_of_zeros),
         cmocka_unit_test(test_demo_routines_are_those_of_rt_h),
         cmocka_unit_test(test_demo_picture_is_that_of_rt_render),
+        cmocka_unit_test(test_demo_picture),
     };
     return cmocka_run_group_tests_name("13 gloss", tests, NULL, NULL);
 }

@@ -422,6 +422,12 @@ static void test_demo_picture_is_that_of_rt_render(void **state)
     free(ours.pixels);
 }
 
+static void test_demo_picture(void **state)
+{
+    (void)state;
+    check_golden();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -441,6 +447,7 @@ int main(void)
         cmocka_unit_test(test_light_from_a_sky),
         cmocka_unit_test(test_demo_ray_is_rt_lens_ray),
         cmocka_unit_test(test_demo_picture_is_that_of_rt_render),
+        cmocka_unit_test(test_demo_picture),
     };
     return cmocka_run_group_tests_name("14 lens and sky", tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 /* Chapter 15: patterns. */
+#define DEMO "../demos/demo15_patterns.c"
 #include "test.h"
 
 static const rt_scene empty; /* all zero */
@@ -287,6 +288,54 @@ static void test_the_guides_show_the_pattern(void **state)
     free_all(&image);
 }
 
+/* The demo's tiles are those of patterns.h; with negative numbers, too, none is twice as wide. */
+static void test_demo_tile_is_that_of_patterns_h(void **state)
+{
+    (void)state;
+    const rt_vec3 up = {0, 1, 0};
+    rt_rng rng = rt_rng_start(0, 0, 15);
+    for (int i = 0; i < 100000; i++) {
+        const rt_vec3 P = random_point(&rng, 60.0f);
+        const rt_vec3 theirs = tile(&room_tiles, P, up);
+        const rt_vec3 ours = checker_pattern(&room_tiles, P, up);
+        const rt_vec3 next =
+            tile(&room_tiles, rt_add(P, rt_vec(room_tiles.size, 0, 0)), up);
+        assert_memory_equal(&theirs, &ours, sizeof ours);
+        assert_true(next.x != ours.x);
+    }
+}
+
+static void test_marble_and_picture_are_albedos(void **state)
+{
+    (void)state;
+    const rt_vec3 up = {0, 1, 0};
+    rt_rng rng = rt_rng_start(0, 0, 16);
+    const rt_vec3 pixels[2] = {{0.25f, 0.5f, 0.75f}, {1, 0, 0}};
+    pattern_picture two = {.ball = &room_spheres[0], .pixels = pixels, .width = 2};
+    two.height = 1;
+    float least = 1, most = 0;
+    for (int i = 0; i < 100000; i++) {
+        const rt_vec3 P = random_point(&rng, 50.0f), v = marble_pattern(NULL, P, up);
+        const rt_vec3 at =
+            rt_add(room_spheres[0].center,
+                   rt_scale(random_direction(&rng), room_spheres[0].radius));
+        const rt_vec3 seen = picture_pattern(&two, at, up);
+        const bool right = at.x > room_spheres[0].center.x;
+        assert_true(v.x >= 0.2f && v.x <= 0.86f && v.z >= 0.3f && v.z <= 0.8f);
+        least = v.x < least ? v.x : least;
+        most = v.x > most ? v.x : most;
+        if (fabsf(at.x - room_spheres[0].center.x) > 1e-3f)
+            assert_true(seen.x == pixels[right].x);
+    }
+    assert_true(least < 0.25f && most > 0.85f); /* there are veins, and there is stone */
+}
+
+static void test_demo_picture(void **state)
+{
+    (void)state;
+    check_golden();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -299,6 +348,9 @@ int main(void)
         cmocka_unit_test(test_a_black_pattern_with_any_number_of_lanes),
         cmocka_unit_test(test_a_coat_shines_over_a_black_pattern),
         cmocka_unit_test(test_the_guides_show_the_pattern),
+        cmocka_unit_test(test_demo_tile_is_that_of_patterns_h),
+        cmocka_unit_test(test_marble_and_picture_are_albedos),
+        cmocka_unit_test(test_demo_picture),
     };
     return cmocka_run_group_tests_name("15 patterns", tests, NULL, NULL);
 }
