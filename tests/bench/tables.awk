@@ -64,6 +64,7 @@ $1 == "flags" { keep("flags", $2, $3 + 0, 1) }
 $1 == "picture" { keep("picture", $2, $3 + 0, $2 != 3) }
 $1 == "direct" { keep("direct", $2, $4 + 0, 1) }
 $1 == "mitsuba" { keep("mitsuba", $2, $3 + 0, 1) }
+$1 == "part2" { keep("part2 " $3, $2, $4 + 0, 1) }
 $1 == "growth" { keep("ns " $2, $3, $4 + 0, 0) }
 $1 == "growth" && $2 != "linear" { keep("built", $3, $6 + 0, 0) }
 $1 == "denoise" { at[++pictures] = $2; noisy[$2] = $3; clean[$2] = $4; one[$2] = $5; two[$2] = $6 }
@@ -76,6 +77,19 @@ END {
     per_sample = rays["rt.h, scalar, 1 thread"]
     packets = best["speed", most_lanes]
     if (topic == "machine") { print machine "."; exit }
+    if (topic == "part2") {
+        columns = 5
+        line("scene", "rt.h, scalar", "rt.h, lanes", "Mitsuba, llvm", "rt.h against it")
+        for (i = 1; i <= count["part2 lanes"]; i++) {
+            scene = order["part2 lanes", i]
+            lanes = best["part2 lanes", scene]
+            theirs2 = best["part2 mitsuba", scene]
+            line(scene, show(best["part2 scalar", scene]), show(lanes), show(theirs2),
+                times(lanes, theirs2))
+        }
+        print_table()
+        exit
+    }
     if (topic == "speed") {
         columns = 3
         line("camera ray, 5 bounces, shadow rays", "Mrays/s", "against report's way, -O2")
