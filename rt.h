@@ -1781,7 +1781,7 @@ static inline float rt_fresnel(float cosine, float eta)
 #endif
 
 /* The direction in which the ray I, of length 1, goes on behind the surface; N is on the
- * side that it comes from, eta as above:
+ * side that it comes from, eta the index behind the surface over that before it:
  *
  *     T = I / eta + (cos i / eta - cos t) N.
  *
@@ -1840,7 +1840,8 @@ static inline rt_vec3 rt_transmittance(rt_vec3 absorption, float distance)
  * Chapter 12. Lamps with a size
  *
  * A lamp is a black body that shines. It has the same radiance wherever one sees it from,
- * and stands in the way of what is behind it.
+ * and stands in the way of what is behind it, also of another lamp: so lamps should not
+ * overlap.
  * ==================================================================================== */
 
 typedef struct rt_lamp {
@@ -2071,6 +2072,8 @@ static inline rt_vec3 rt_sample_gloss(rt_vec3 normal, rt_vec3 to_eye, float shin
  * as if each facet reflected all of it; per steradian, and all directions of length 1:
  *
  *     D(h) G(eye) G(light) / (4 <N,eye>),         h halfway between the two,
+ *     D(h) = a^2 / (pi (<N,h>^2 (a^2 - 1) + 1)^2),         a^2 = 2 / (shininess + 2),
+ *     G(v) = 2 <N,v> / (<N,v> + sqrt(a^2 + (1 - a^2) <N,v>^2)),
  *
  * and in *density, that of rt_sample_gloss, the same without G(light). Both are 0 if one
  * of the two is below the surface. <N,h>^2 (a^2 - 1) + 1 is taken as |N x h|^2 + a^2
@@ -2392,8 +2395,9 @@ static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
  *
  * Radiance within glass is eta^2 of what it is outside. That factor is left out, for it
  * cancels when the path leaves the glass; a camera inside sees all too dark by it. Shapes
- * of glass must not overlap or touch: a ray that is inside one knows of no other. A flat
- * box of glass has no inside: it bends a ray, and nothing bends it back. */
+ * of glass must not overlap or touch: a ray that is inside one knows of no other. What
+ * else is inside is seen without the absorption of the glass before it. A flat box of
+ * glass has no inside: it bends a ray, and nothing bends it back. */
 static inline rt_vec3 rt_radiance_mis(const rt_scene *scene, const rt_ray *camera_ray,
                                       int bounces, rt_rng *rng)
 {
@@ -2705,7 +2709,8 @@ RTDEF float rt_image_error(const rt_image *image);
  * above 1e15, stays as it is, and no other asks it.
  *
  * What the guides do not show is lost where it is fainter than the noise, as are shadows
- * in indirect light. The more samples there are, the more of it is back.
+ * in indirect light. The more samples there are, the more of it is back. Behind glass the
+ * guides have noise themselves, and a dark pixel may come out a little below 0.
  *
  * RT_BAD_POINTER, RT_BAD_SIZE (also if result has another size, or one of them is a part
  * of a picture), RT_BAD_SAMPLES (less than 2), RT_BAD_GUIDES (no guides or no half),

@@ -200,7 +200,7 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
         } else if (strcmp(arg, "--no-window") == 0) {
             s->window = false;
         } else if (strcmp(arg, "--denoise") == 0) {
-            s->denoise = true;
+            s->denoise = s->told_to_denoise = true;
         } else if (strcmp(arg, "--no-denoise") == 0) {
             s->denoise = false;
         } else if (strcmp(arg, "--preview") == 0) {
@@ -251,6 +251,8 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
         return fprintf(stderr, "%s: --denoise: chapter 7 and later can do that\n",
                        d->name),
                false;
+    if (s->denoise && s->samples == 1 && !s->told_to_denoise)
+        s->denoise = false;
     if (s->denoise && s->samples == 1)
         return fprintf(stderr, "%s: --samples: '1': --denoise takes 2 or more\n",
                        d->name),

@@ -14,7 +14,8 @@ typedef struct settings {
     rt_sampler sampler;
     const char *out, *texture; /* files; NULL: none */
     bool window, preview, quiet, help, explain, denoise;
-    long x, y; /* the pixel to explain */
+    bool told_to_denoise; /* and not only by default */
+    long x, y;            /* the pixel to explain */
 } settings;
 
 /* What the words say, into settings that hold the defaults. False: one of them is wrong, and

@@ -156,7 +156,11 @@ bool files_is_pfm(const char *path)
 /* Of a byte the light is (byte / 255)^2.2, as chapter 5 has it. */
 rt_vec3 *files_load(const char *who, const char *path, int *width, int *height)
 {
-    unsigned char *bytes = stbi_load(path, width, height, NULL, 3);
+    errno = 0;
+    FILE *file = fopen(path, "rb");
+    unsigned char *bytes =
+        file ? stbi_load_from_file(file, width, height, NULL, 3) : NULL;
+    const char *why = !file || errno == EISDIR ? strerror(errno) : stbi_failure_reason();
     const size_t count = bytes ? (size_t)*width * (size_t)*height : 0;
     rt_vec3 *pixels = count > 0 ? malloc(count * sizeof *pixels) : NULL;
     float light[256];
@@ -166,11 +170,13 @@ rt_vec3 *files_load(const char *who, const char *path, int *width, int *height)
         pixels[i] =
             rt_vec(light[bytes[3 * i]], light[bytes[3 * i + 1]], light[bytes[3 * i + 2]]);
     if (!bytes)
-        fprintf(stderr, "%s: cannot read '%s' as PNG or JPEG: %s\n", who, path,
-                stbi_failure_reason());
+        fprintf(stderr, "%s: --texture: cannot read '%s' as PNG or JPEG: %s\n", who, path,
+                why && *why ? why : "it is damaged");
     else if (!pixels)
-        fprintf(stderr, "%s: '%s': not enough memory for %d x %d pixels\n", who, path,
+        fprintf(stderr, "%s: --texture: '%s': no memory for %d x %d pixels\n", who, path,
                 *width, *height);
+    if (file)
+        fclose(file);
     stbi_image_free(bytes);
     return pixels;
 }

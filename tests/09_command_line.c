@@ -323,10 +323,12 @@ static void test_a_texture_is_wrapped_around_the_ball(void **state)
     expect(0, "",
            "demo15 40 30 --samples 2 --quiet --no-window --texture t.png --out p1.png");
     assert_int_not_equal(run("cmp -s p0.png p1.png"), 0);
-    expect(1, "demo15: cannot read 'none.png' as PNG or JPEG: can't fopen",
+    expect(1, "demo15: --texture: cannot read 'none.png' as PNG or JPEG: No such file",
            "demo15 --texture none.png");
     assert_int_equal(run("echo hello >none.png"), 0);
     expect(1, "cannot read 'none.png' as PNG or JPEG", "demo15 --texture none.png");
+    expect(1, "--texture: cannot read '.' as PNG or JPEG: Is a directory",
+           "demo15 --texture .");
     expect(2, "--texture: a file name is missing", "demo15 --texture");
     expect(2, "--texture: only chapter 15 can do that", "demo14 --texture t.png");
 }
