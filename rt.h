@@ -4654,8 +4654,8 @@ static double rt__least_distance(const rt_lamp *lamp, rt_dvec3 o)
     const double reach =
         ball ? (double)lamp->radius : sqrt(rt_ddot(u, u)) + sqrt(rt_ddot(v, v));
     const double off = ball ? 0.0 : fabs(rt_ddot(way, rt_dnormalize(rt_dcross(u, v))));
-    const double near = sqrt(rt_ddot(way, way)) - reach;
-    const double least = (near > off ? near : off) -
+    const double nearest = sqrt(rt_ddot(way, way)) - reach;
+    const double least = (nearest > off ? nearest : off) -
                          (sqrt(rt_ddot(center, center)) + reach) * (1.0 / 65536.0);
     return least > 0.0 ? least : 0.0;
 }
@@ -6111,9 +6111,9 @@ RT__NOINLINE rt__f rt__meet_ball(const rt_lamp *lamp, const rt__f3 *origin,
         const rt__d t = (rt__d)((ahead & (rt__l)first) | (~ahead & (rt__l)second));
         const rt__l met = (a > 0.0) & ~((c > 0.0) & (b >= 0.0)) & (discriminant >= 0.0) &
                           (t >= (double)FLT_MIN) & (t <= (double)FLT_MAX);
-        const rt__l far = rr < 1e-10 * ff;
+        const rt__l afar = rr < 1e-10 * ff;
         const rt__d minus = none - 1.0;
-        result[h] = (rt__d)((far & (rt__l)minus) | (~far & met & (rt__l)t));
+        result[h] = (rt__d)((afar & (rt__l)minus) | (~afar & met & (rt__l)t));
     }
     rt__f t = rt__join(result[0], result[1]);
     t = rt__select(lanes, t, zero);

@@ -548,9 +548,9 @@ static void live_draw_path(const rt_scene *scene, const rt_path *path, live_line
             const rt_shadow *s = &path->shadows[i];
             if (s->vertex != n)
                 continue;
-            const float far =
+            const float most =
                 300.0f / rt_length(s->ray.direction); /* not up to the sun */
-            const float t = s->blocker >= 0 ? s->t : far < 1.0f ? far : 1.0f;
+            const float t = s->blocker >= 0 ? s->t : most < 1.0f ? most : 1.0f;
             live_line(l, LINE_LIT, weight, s->ray.origin, rt_at(&s->ray, t));
             if (s->blocker >= 0)
                 live_line(l, LINE_BLOCKED, 1, rt_at(&s->ray, t), rt_at(&s->ray, 1.0f));
