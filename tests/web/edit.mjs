@@ -9,7 +9,8 @@ import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { browser, build, complaints, findings, firefox, newPage, run, serve } from './browser.mjs';
 
-const words = process.argv.slice(2).filter(word => word !== '--firefox');
+const words = process.argv.slice(2).filter(word => word !== '--firefox' && word !== '--all');
+const everything = process.argv.includes('--all'); // all submissions, not some
 const pictures = words[0] === '--pictures' ? words.splice(0, 2)[1] : undefined;
 const pages = `${build}/web/pages`;
 
@@ -358,7 +359,7 @@ test('the marks of make grade', async () => {
     });
     assert.equal(native.status, 0, native.stdout + native.stderr);
     const table = readFileSync(`${build}/web/marks.csv`, 'utf8').trim().split('\n').slice(1)
-        .map(line => line.split(','));
+        .map(line => line.split(',')).filter((_, i) => everything || i % 6 === 0);
     const work = mkdtempSync(join(tmpdir(), 'rt-edit-'));
     const page = await open('rt_reflect');
     await begin(page);
