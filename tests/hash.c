@@ -1,16 +1,10 @@
-/* The demo that DEMO names; and without DEMO, to be linked with it, the rest of a program that
- * prints "demoNN hash" for it: 64 x 48 pixels, 4 samples, the FNV-1a hash
+/* Prints "demoNN hash" for the demo that DEMO names: 64 x 48 pixels, 4 samples, the FNV-1a hash
  * of the bits of every float and of every byte. It must be the same for every compiler, level
  * of optimisation, C library, processor, number of threads and number of rays at a time:
- * tests/references/hashes.txt.
- * Needs nothing but rt.h, so that it runs where there is no cmocka. */
-#ifdef DEMO
+ * tests/references/hashes.txt. Needs nothing but rt.h, so that it runs where there is no
+ * cmocka. For many demos: without DEMO it is all but the demo, and with LINKED only that. */
+#ifdef LINKED
 #include "../demos/demo.h"
-#define LIVE_H /* nobody looks through a window here: less to compile */
-#include "../demos/explain.h"
-#include "../demos/scene.h"
-static const demo_live live_room;
-#include DEMO /* NOLINT(bugprone-suspicious-include) */
 #else
 #include <stdio.h>
 #include <string.h>
@@ -100,5 +94,12 @@ int demo_main(int argc, char **argv, const demo *d)
            (unsigned long)(first & 0xffffffffu));
     return 0;
 }
+#endif
 
+#ifdef DEMO
+#define LIVE_H /* nobody looks through a window here: less to compile */
+#include "../demos/explain.h"
+#include "../demos/scene.h"
+static const demo_live live_room;
+#include DEMO /* NOLINT(bugprone-suspicious-include) */
 #endif
