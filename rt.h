@@ -2183,6 +2183,7 @@ typedef struct rt_lens {
     float focus;  /* above 0: how far away, along the axis, is the plane that is sharp */
 } rt_lens;
 
+/* rt_lens_ray, see below, of a camera with this film. */
 static inline rt_ray rt__film_lens_ray(const rt__film *film, const rt_lens *lens,
                                        const rt_ray *ray, float r1, float r2)
 {
@@ -2219,16 +2220,17 @@ static inline rt_ray rt_lens_ray(const rt_camera *camera, const rt_lens *lens,
 }
 #endif
 
+/* v, at least 0 and at most this; 0 for NaN. */
+static inline float rt__at_most(float v, float most)
+{
+    return v > 0.0f ? v < most ? v : most : 0.0f;
+}
+
 /* The light that comes from where nothing is hit: the background, or in its place the sky
  * in that direction. scene->sky may be any function of a unit vector; what it returns is
  * radiance in linear RGB, and counts as 0 where it is negative or NaN, as 1e15 where it
  * is more. It is called on many threads at once. What is small and bright, as the sun,
  * had better be an rt_lamp far away, for which rays can aim. */
-static inline float rt__at_most(float v, float most)
-{
-    return v > 0.0f ? v < most ? v : most : 0.0f; /* NaN: 0 */
-}
-
 static inline rt_vec3 rt_sky(const rt_scene *scene, rt_vec3 direction)
 {
     if (!scene->sky)
@@ -2262,13 +2264,13 @@ static inline rt_vec3 rt_albedo(const rt_surface *surface, const rt_hit *hit)
 
 /* What a path does at one of its points: for rt_trace_pixel. */
 typedef enum rt_event {
-    RT_EVENT_GONE,   /* it has left the scene, for the background or the sky */
-    RT_EVENT_MATT,   /* it goes on by chance: from a matt surface, or the matt body of */
-    RT_EVENT_GLOSS,  /* a coated one; from the gloss, */
-    RT_EVENT_MIRROR, /* or by a perfect mirror; */
-    RT_EVENT_REFLECTED, /* from glass, */
-    RT_EVENT_REFRACTED, /* or through its surface */
-    RT_EVENT_LAMP       /* it ends at a lamp with a size */
+    RT_EVENT_GONE,      /* it leaves the scene, for the background or the sky */
+    RT_EVENT_MATT,      /* goes on by chance, as from a matt surface */
+    RT_EVENT_GLOSS,     /* by chance, by way of the gloss */
+    RT_EVENT_MIRROR,    /* is reflected by a perfect mirror */
+    RT_EVENT_REFLECTED, /* is reflected by glass */
+    RT_EVENT_REFRACTED, /* goes through the surface of glass */
+    RT_EVENT_LAMP       /* ends at a lamp with a size */
 } rt_event;
 
 static inline rt_brdf rt__brdf_of(const rt_surface *surface, const rt_hit *hit)
@@ -2280,6 +2282,18 @@ static inline rt_brdf rt__brdf_of(const rt_surface *surface, const rt_hit *hit)
     if (brdf.metal && !surface->pattern && rt_is_zero(brdf.albedo)) /* chapter 6 */
         brdf.albedo = rt_vec(1.0f, 1.0f, 1.0f);
     return brdf;
+}
+
+/* A ray meets glass: the refractive index behind the surface over that before it. If it
+ * comes from inside, *throughput loses what the glass has absorbed. */
+static inline float rt__meet_glass(const rt_scene *scene, const rt_surface *surface,
+                                   const rt_hit *hit, rt_vec3 *throughput, bool *inside)
+{
+    *inside = rt_is_inside(scene, hit);
+    if (!*inside)
+        return surface->eta;
+    *throughput = rt_mul(*throughput, rt_transmittance(surface->absorption, hit->t));
+    return 1.0f / surface->eta;
 }
 
 /* rt_lambert for a surface with gloss. */
@@ -2447,11 +2461,7 @@ static inline rt_vec3 rt_radiance_mis(const rt_scene *scene, const rt_ray *camer
         rt_event event;
         bool inside = false;
         if (surface->eta > 0.0f) {
-            inside = rt_is_inside(scene, &hit);
-            const float eta = inside ? 1.0f / surface->eta : surface->eta;
-            if (inside)
-                throughput =
-                    rt_mul(throughput, rt_transmittance(surface->absorption, hit.t));
+            const float eta = rt__meet_glass(scene, surface, &hit, &throughput, &inside);
             const float coin = rt_random(rng);
             rt_random(rng); /* not used: numbers come in pairs, see chapter 9 */
             event = RT_EVENT_REFRACTED;
@@ -2503,7 +2513,7 @@ static inline rt_vec3 rt_radiance_mis(const rt_scene *scene, const rt_ray *camer
 
 /* rt_first_look, with all of part two: the first surface that is no mirror and no glass.
  * Through glass it looks straight on, or where that cannot be, along the reflection.
- * direct is what has no noise: lights that are points, and what shines by itself. */
+ * direct is what has little noise: lights that are points, and what shines by itself. */
 static inline rt_guide rt__first_look_mis(const rt_scene *scene, const rt_ray *camera_ray,
                                           int bounces, rt_rng *rng)
 {
@@ -2529,11 +2539,8 @@ static inline rt_guide rt__first_look_mis(const rt_scene *scene, const rt_ray *c
         rt_vec3 direction = rt_reflect(ray.direction, hit.normal);
         guide.direct = rt_mul(throughput, surface->emission);
         if (glass) {
-            const bool inside = rt_is_inside(scene, &hit);
-            const float eta = inside ? 1.0f / surface->eta : surface->eta;
-            if (inside)
-                throughput =
-                    rt_mul(throughput, rt_transmittance(surface->absorption, hit.t));
+            bool inside;
+            const float eta = rt__meet_glass(scene, surface, &hit, &throughput, &inside);
             if (rt_refract(ray.direction, hit.normal, eta, &direction))
                 throughput = rt_scale(throughput,
                                       1.0f - rt_fresnel(rt_dot(hit.normal, to_eye), eta));
@@ -2805,9 +2812,8 @@ RTDEF void rt_free_bvh(rt_bvh *bvh);
 /* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15,
  * radius > 0, min <= max, albedo 0 to 1, intensity and background not negative, no
  * count negative, no array missing, bvh NULL or built for as many shapes; surfaces and
- * lamps as chapters 11 to 13 want them. Otherwise
- * what is wrong, and in *index, unless NULL, the number of the offender in its array.
- * rt_render asks it first. */
+ * lamps as chapters 11 to 13 want them. Otherwise what is wrong, and in *index, unless
+ * NULL, the number of the offender in its array. rt_render asks it first. */
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index);
 
 /* RT_OK, or RT_BAD_CAMERA if a number is not finite or above 1e15, or fov_y not in [0,
