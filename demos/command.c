@@ -65,17 +65,23 @@ static bool parse_number(const demo *d, const char *name, const char *word, long
     return good;
 }
 
-/* A decimal number above 0, digits and a point, whatever the locale says. */
+/* Digits and a point, whatever the locale says, as a number. */
+static bool read_decimal(const char *digits, double *number)
+{
+    char *end = NULL;
+    if (digits && *digits && strspn(digits, "0123456789.") == strlen(digits))
+        *number = strtod(digits, &end); /* nobody here calls setlocale */
+    return end && *end == '\0';
+}
+
+/* A decimal number above 0. */
 static bool parse_decimal(const demo *d, const char *name, const char *word,
                           const char *what, float *value)
 {
-    bool good = word && strspn(word, "0123456789.") == strlen(word);
-    if (good) {
-        char *end;
-        const double number = strtod(word, &end); /* nobody here calls setlocale */
-        good = *end == '\0' && number <= (double)FLT_MAX && (float)number > 0.0f;
-        *value = good ? (float)number : 0.0f;
-    }
+    double number = 0.0;
+    const bool good =
+        read_decimal(word, &number) && number <= (double)FLT_MAX && (float)number > 0.0f;
+    *value = good ? (float)number : 0.0f;
     if (!good && !word)
         fprintf(stderr, "%s: %s: a number is missing\n", d->name, name);
     else if (!good)
@@ -87,14 +93,10 @@ static bool parse_decimal(const demo *d, const char *name, const char *word,
 /* A decimal number with or without a sign, -20 to 20. */
 static bool parse_exposure(const demo *d, const char *word, float *value)
 {
-    const char *digits = word && (*word == '-' || *word == '+') ? word + 1 : word;
-    bool good = digits && *digits && strspn(digits, "0123456789.") == strlen(digits);
-    if (good) {
-        char *end;
-        const double number = strtod(word, &end);
-        good = *end == '\0' && number >= -20.0 && number <= 20.0;
-        *value = good ? (float)number : 0.0f;
-    }
+    const bool sign = word && (*word == '-' || *word == '+');
+    double number = 0.0;
+    const bool good = read_decimal(sign ? word + 1 : word, &number) && number <= 20.0;
+    *value = good ? (float)(sign && *word == '-' ? -number : number) : 0.0f;
     if (!good && !word)
         fprintf(stderr, "%s: --exposure: a number is missing\n", d->name);
     else if (!good)

@@ -77,7 +77,6 @@ static void print_vertex(demo_text *out, const rt_scene *scene, const rt_path *p
             asked = true;
             print_shadow(out, scene, &path->shadows[i]);
         }
-    const bool part_two = scene->surfaces != NULL;
     if (v->shape >= 0 && v->event == RT_EVENT_MIRROR)
         text_add(out, "  |    a mirror: the light comes from where it points\n");
     else if (v->shape >= 0 &&
@@ -85,7 +84,7 @@ static void print_vertex(demo_text *out, const rt_scene *scene, const rt_path *p
         text_add(out, "  |    glass: %s\n", event_name(v));
     else if (v->shape >= 0 && !asked)
         text_add(out, "  |    lamp: behind the surface\n");
-    if (part_two && v->density > 0.0f)
+    if (v->density > 0.0f)
         text_add(out, "  |    goes on by %s, density %.6g\n",
                  v->event == RT_EVENT_GLOSS ? "the gloss" : "the matt body",
                  (double)v->density);

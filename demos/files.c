@@ -170,11 +170,11 @@ rt_vec3 *files_load(const char *who, const char *path, int *width, int *height)
         pixels[i] =
             rt_vec(light[bytes[3 * i]], light[bytes[3 * i + 1]], light[bytes[3 * i + 2]]);
     if (!bytes)
-        fprintf(stderr, "%s: --texture: cannot read '%s' as PNG or JPEG: %s\n", who, path,
+        fprintf(stderr, "%s: cannot read '%s' as PNG or JPEG: %s\n", who, path,
                 why && *why ? why : "it is damaged");
     else if (!pixels)
-        fprintf(stderr, "%s: --texture: '%s': no memory for %d x %d pixels\n", who, path,
-                *width, *height);
+        fprintf(stderr, "%s: '%s': no memory for %d x %d pixels\n", who, path, *width,
+                *height);
     if (file)
         fclose(file);
     stbi_image_free(bytes);

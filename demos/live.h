@@ -90,8 +90,8 @@ static unsigned char live_encode(int stage, float value)
     return rt_encode(value, stage < 5 ? 1.0 : 2.2);
 }
 
-/* Direct light, at once: all lanes without bounces, in part two with a few. What is black then may be a mirror: these
- * pixels are asked again, one ray at a time. */
+/* Direct light, at once: all lanes without bounces, in part two with a few. In part one, what is
+ * black then may be a mirror: these pixels are asked again, one ray at a time. */
 static rt_status live_draft(int stage, const demo_view *view, const rt_options *options,
                             rt_image *image)
 {

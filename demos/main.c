@@ -416,7 +416,9 @@ __attribute__((constructor, target("arch=x86-64"))) static void check_machine(vo
 static bool wrap_texture(const demo *d, const char *path)
 {
     int width, height;
-    const rt_vec3 *pixels = files_load(d->name, path, &width, &height);
+    char who[80];
+    snprintf(who, sizeof who, "%s: --texture", d->name);
+    const rt_vec3 *pixels = files_load(who, path, &width, &height);
     if (pixels)
         d->texture(pixels, width, height);
     return pixels != NULL;

@@ -74,18 +74,17 @@ int main(int argc, char **argv)
         if (!out) {
             const double speed = speed_of(&file, (int)samples, (int)lanes, &image);
             printf("%.5f\n", speed);
-            free(image.pixels);
-            free_scene(&file);
-            return speed > 0 ? 0 : 1;
+            result = speed > 0 ? 0 : 1;
+        } else {
+            const rt_status status =
+                render_scene(&file, (int)samples, (uint32_t)seed, &image);
+            if (status != RT_OK)
+                fprintf(stderr, "render_scene: '%s': %s\n", path, rt_status_text(status));
+            else if (!write_pfm(out, &image))
+                perror(out);
+            else
+                result = 0;
         }
-        const rt_status status =
-            render_scene(&file, (int)samples, (uint32_t)seed, &image);
-        if (status != RT_OK)
-            fprintf(stderr, "render_scene: '%s': %s\n", path, rt_status_text(status));
-        else if (!write_pfm(out, &image))
-            perror(out);
-        else
-            result = 0;
         free(image.pixels);
     }
     free_scene(&file);
