@@ -737,14 +737,8 @@ static void test_demo_routines_are_those_of_rt_h(void **state)
 
 static void test_demo_picture_is_that_of_rt_render(void **state)
 {
-    /* Also by the demo's own routines, and whatever the lanes. */
     (void)state;
-    rt_image theirs = render_the_demo(40, 30, 4, 1), ours = new_image(40, 30);
-    const rt_options options = {.samples = 4, .bounces = 8, .seed = 1};
-    assert_int_equal(rt_render(&scene_glass, &room_camera, &options, &ours), RT_OK);
-    assert_true(same_pixels(&theirs, &ours));
-    free(theirs.pixels);
-    free(ours.pixels);
+    check_against_rt_render(&scene_glass);
 }
 
 static void test_demo_picture(void **state)

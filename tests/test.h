@@ -214,6 +214,18 @@ static inline rt_image render_the_demo(int width, int height, int samples, uint3
     return image;
 }
 
+/* The demo's picture of this scene is rt_render's, to the bit: also by the demo's own routines,
+ * and whatever the lanes. */
+static inline void check_against_rt_render(const rt_scene *scene)
+{
+    rt_image theirs = render_the_demo(40, 30, 4, 1), ours = new_image(40, 30);
+    const rt_options options = {.samples = 4, .bounces = the_demo.bounces, .seed = 1};
+    assert_int_equal(rt_render(scene, &room_camera, &options, &ours), RT_OK);
+    assert_memory_equal(theirs.pixels, ours.pixels, 40 * 30 * sizeof *ours.pixels);
+    free(theirs.pixels);
+    free(ours.pixels);
+}
+
 /* The picture, small, is what it was when somebody last looked at it and found it right:
  * tests/references/demoNN.ppm, recorded by "make golden". Byte for byte. */
 static inline void check_golden(void)
