@@ -3,6 +3,8 @@
 #include "programs.h"
 #include "scene_file.h"
 
+#include "../demos/scene.h"
+
 /* ---- what works --------------------------------------------------------------------- */
 
 static void test_help(void **state)
@@ -294,6 +296,30 @@ static void test_explain_adds_up_to_the_pixel(void **state)
     expect(2, "--explain: '1,2,3' is not a pixel", "demo09 --explain 1,2,3");
     expect(2, "--explain: '' is not a pixel", "demo09 --explain");
     expect(2, "--explain: chapter 7 and later", "demo06 --explain 1,2");
+}
+
+static void test_demos_of_part_two_have_the_pictures_of_rt_h(void **state)
+{
+    /* By their own routines, which take the place of rt.h's in the program. */
+    (void)state;
+    const rt_scene *scenes[] = {&scene_glass, &scene_lamps, &scene_gloss, &scene_sky,
+                                &scene_patterns};
+    for (int k = 0; k < 5; k++) {
+        static rt_vec3 pixels[40 * 30];
+        char arguments[120];
+        rt_image image = {.width = 40, .height = 30, .pixels = pixels};
+        rt_options options = {.samples = 4, .bounces = 8};
+        if (scenes[k]->sky)
+            options.lens = room_lens;
+        assert_int_equal(rt_render(scenes[k], &room_camera, &options, &image), RT_OK);
+        snprintf(arguments, sizeof arguments,
+                 "demo%d 40 30 --samples 4 --no-denoise --quiet --out own.pfm", 11 + k);
+        expect(0, "", arguments);
+        rt_vec3 *own = read_pfm("own.pfm", 40, 30);
+        assert_non_null(own);
+        assert_memory_equal(own, pixels, sizeof pixels);
+        free(own);
+    }
 }
 
 static void test_exposure_doubles_light_and_not_the_pfm(void **state)
@@ -610,6 +636,7 @@ int main(void)
         cmocka_unit_test(test_chapter_8_times_its_loops),
         cmocka_unit_test(test_chapter_9_counts_its_points),
         cmocka_unit_test(test_explain_adds_up_to_the_pixel),
+        cmocka_unit_test(test_demos_of_part_two_have_the_pictures_of_rt_h),
         cmocka_unit_test(test_exposure_doubles_light_and_not_the_pfm),
         cmocka_unit_test(test_a_texture_is_wrapped_around_the_ball),
         cmocka_unit_test(test_without_a_display_it_says_so_and_goes_on),

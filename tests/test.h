@@ -214,8 +214,8 @@ static inline rt_image render_the_demo(int width, int height, int samples, uint3
     return image;
 }
 
-/* The demo's picture of this scene is rt_render's, to the bit: also by the demo's own routines,
- * and whatever the lanes. */
+/* The demo's picture of this scene is rt_render's, to the bit, whatever the lanes. (Here rt.h has
+ * its own routines; by the demo's it is compared in 09_command_line.) */
 static inline void check_against_rt_render(const rt_scene *scene)
 {
     rt_image theirs = render_the_demo(40, 30, 4, 1), ours = new_image(40, 30);
