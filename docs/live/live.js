@@ -583,14 +583,14 @@ async function bring_to_life(root, name, encoded) {
             all_stages: () => stages_of(ALL_STAGES),
         };
         const stages_of = stages => {
-                const set = make('fieldset', {class: 'stages'}, make('legend', {class: 'spoken', text: t('as in chapter')}));
-                const inputs = stages.map(stage => {
-                    const input = make('input', {type: 'radio', name: root.id + '-stage', value: stage, onchange: () => { ex.page_set_stage(stage); go(); }});
-                    set.append(make('label', {}, input, make('span', {}, `${ex.page_chapter(stage)} `, make('small', {text: t(text(ex.page_stage_name(stage)))}))));
-                    return input;
-                });
-                controls.stages = () => inputs.forEach((input, i) => { input.checked = stages[i] === ex.page_stage(); });
-                return set;
+            const set = make('fieldset', {class: 'stages'}, make('legend', {class: 'spoken', text: t('as in chapter')}));
+            const inputs = stages.map(stage => {
+                const input = make('input', {type: 'radio', name: root.id + '-stage', value: stage, onchange: () => { ex.page_set_stage(stage); go(); }});
+                set.append(make('label', {}, input, make('span', {}, `${ex.page_chapter(stage)} `, make('small', {text: t(text(ex.page_stage_name(stage)))}))));
+                return input;
+            });
+            controls.stages = () => inputs.forEach((input, i) => { input.checked = stages[i] === ex.page_stage(); });
+            return set;
         };
         for (const key of chapter.controls)
             bar.append(known[key]());
