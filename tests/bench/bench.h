@@ -8,20 +8,13 @@
 #include <time.h>
 
 #include "../../demos/scene.h"
+#include "../meshes.h" /* need */
 
 static inline double seconds(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static inline void *need(void *memory)
-{
-    if (memory)
-        return memory;
-    fprintf(stderr, "bench: out of memory\n");
-    exit(1);
 }
 
 /* count spheres at random places in the room, which together always fill a twentieth of it: so

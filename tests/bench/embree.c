@@ -34,6 +34,18 @@ static RTCGeometry spheres_of(embree_tree *e, const rt_scene *scene)
     return shape;
 }
 
+static RTCGeometry mesh_of(embree_tree *e, const rt_mesh *mesh)
+{
+    RTCGeometry shape = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               mesh->positions, 0, sizeof *mesh->positions,
+                               (size_t)mesh->position_count);
+    rtcSetSharedGeometryBuffer(shape, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh->indices, 0, 3 * sizeof *mesh->indices,
+                               (size_t)mesh->triangle_count);
+    return shape;
+}
+
 static void *open_scene(const rt_scene *scene, int threads, bool robust)
 {
     char settings[40];
@@ -46,7 +58,8 @@ static void *open_scene(const rt_scene *scene, int threads, bool robust)
         rtcSetSceneFlags(e->scene, RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(e->scene, RTC_BUILD_QUALITY_HIGH);
     }
-    RTCGeometry shape = spheres_of(e, scene);
+    RTCGeometry shape =
+        scene->mesh_count ? mesh_of(e, &scene->meshes[0]) : spheres_of(e, scene);
     rtcCommitGeometry(shape);
     rtcAttachGeometry(e->scene, shape);
     rtcReleaseGeometry(shape);

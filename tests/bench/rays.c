@@ -11,7 +11,8 @@
  *         -DWITH_EMBREE tests/bench/rays.c tests/bench/embree.c -lembree3 -lm
  *     build/rays 5 1e4 1e6 | column -ts "$(printf '\t')"     5 rounds
  *
- * A SCENE is a number of spheres, at most 1e7. Of each row, tab between its values: scene,
+ * A SCENE is icosphere, landscape or sponge, meshes of 1.3, 1.0 and 0.7 million triangles; or a
+ * number of spheres, at most 1e7. Of each row, tab between its values: scene,
  * shapes, who; millions of rays per second, first the camera's rays of 640 x 480 pixels, then
  * one to the light from each hit that faces it, then one into a direction at random (cosine)
  * from each hit; seconds for the build, on one thread and on all; bytes held per shape; how many
@@ -258,6 +259,17 @@ static void measure(const char *name, const rt_scene *scene, const rt_camera *ca
     free(answers);
 }
 
+static const rt_light sun = {{2, 3, 1}, {1, 1, 1}};
+static const rt_camera eye = {{1.4f, 1, 2.2f}, {-1.4f, -1, -2.2f}, {0, 1, 0}, 40};
+
+static void measure_mesh(const char *name, rt_mesh mesh, int rounds)
+{
+    const rt_scene scene = {
+        .meshes = &mesh, .mesh_count = 1, .lights = &sun, .light_count = 1};
+    measure(name, &scene, &eye, 0.0f, mesh.triangle_count, rounds);
+    free_mesh(&mesh);
+}
+
 static void measure_spheres(const char *name, int count, int rounds)
 {
     rt_sphere *spheres = many_spheres(count);
@@ -271,16 +283,26 @@ static void measure_spheres(const char *name, int count, int rounds)
 
 int main(int argc, char **argv)
 {
-    static char *all[] = {"100 spheres", "1000 spheres", "10000 spheres",
-                          "100000 spheres", "1000000 spheres"};
+    static const char *const all[] = {"icosphere",   "landscape",    "sponge",
+                                      "100 spheres", "1000 spheres", "10000 spheres",
+                                      "1e5 spheres", "1e6 spheres"};
     const int rounds = argc > 1 ? atoi(argv[1]) : 3;
     const int count = argc > 2 ? argc - 2 : (int)(sizeof all / sizeof *all);
-    char **scenes = argc > 2 ? argv + 2 : all;
     for (int i = 0; i < count; i++) {
-        const double spheres = atof(scenes[i]);
-        if (rounds < 1 || !(spheres >= 1 && spheres <= 1e7))
+        const char *name = argc > 2 ? argv[i + 2] : all[i];
+        const double spheres = atof(name);
+        if (rounds < 1)
+            break;
+        if (strcmp(name, "icosphere") == 0)
+            measure_mesh(name, make_icosphere(8), rounds);
+        else if (strcmp(name, "landscape") == 0)
+            measure_mesh(name, make_landscape(708), rounds);
+        else if (strcmp(name, "sponge") == 0)
+            measure_mesh(name, make_cells(81, is_sponge), rounds);
+        else if (spheres >= 1 && spheres <= 1e7)
+            measure_spheres(name, (int)spheres, rounds);
+        else
             return fprintf(stderr, "bench: see the head of tests/bench/rays.c\n"), 1;
-        measure_spheres(scenes[i], (int)spheres, rounds);
     }
-    return 0;
+    return rounds < 1;
 }

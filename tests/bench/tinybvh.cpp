@@ -4,41 +4,17 @@
 #include "candidate.h"
 #include <cstdlib>
 #include <cstring>
+#include <vector>
 #define TINYBVH_IMPLEMENTATION
 #include "tiny_bvh.h"
 
 using namespace tinybvh;
 
-/* Its trees ask for memory here, so that what they hold is counted. */
-static void *counted(size_t size, void *bytes)
-{
-    size_t *memory = (size_t *)malloc64(size + 64);
-    *(size_t *)bytes += *memory = size;
-    return memory + 8;
-}
-
-static void give_back(void *memory, void *bytes)
-{
-    if (!memory)
-        return;
-    size_t *whole = (size_t *)memory - 8;
-    *(size_t *)bytes -= *whole;
-    free64(whole);
-}
-
 struct wide_tree {
-    size_t bytes; /* first made, last destroyed */
-    BVHContext context;
     BVH8_CPU wide;
     BVH binary;
     const rt_scene *scene;
-    bvhvec4 *corners;
-
-    explicit wide_tree(const rt_scene *of)
-        : bytes(0), context{counted, give_back, &bytes}, wide(context), binary(context),
-          scene(of), corners(nullptr)
-    {
-    }
+    std::vector<bvhvec4> corners; /* of the mesh, as it wants them */
 };
 
 static const rt_sphere *spheres; /* its functions are told the number only */
@@ -83,8 +59,13 @@ static bool occluded(const Ray &ray, unsigned i)
 
 static void *open(const rt_scene *scene, int threads)
 {
-    wide_tree *tree = new wide_tree(scene);
+    wide_tree *tree = new wide_tree;
+    tree->scene = scene;
     tree->wide.bvh8.bvh.threadedBuild = tree->binary.threadedBuild = threads > 1;
+    for (int i = 0; scene->mesh_count && i < scene->meshes->position_count; i++) {
+        const rt_vec3 p = scene->meshes->positions[i];
+        tree->corners.push_back(bvhvec4(p.x, p.y, p.z, 0));
+    }
     tree->binary.customIntersect = intersect;
     tree->binary.customIsOccluded = occluded;
     return tree;
@@ -94,12 +75,21 @@ static void build(void *of)
 {
     wide_tree *tree = (wide_tree *)of;
     spheres = tree->scene->spheres;
-    tree->binary.Build(bounds, (uint32_t)tree->scene->sphere_count);
+    if (tree->scene->mesh_count)
+        tree->wide.Build(tree->corners.data(),
+                         (const uint32_t *)tree->scene->meshes->indices,
+                         (uint32_t)tree->scene->meshes->triangle_count);
+    else
+        tree->binary.Build(bounds, (uint32_t)tree->scene->sphere_count);
 }
 
-static size_t bytes(void *tree)
+/* Of what it asks; the trees that it makes on the way stay, too, but need not. */
+static size_t bytes(void *of)
 {
-    return ((wide_tree *)tree)->bytes;
+    const wide_tree *tree = (const wide_tree *)of;
+    return tree->scene->mesh_count ? tree->wide.usedBlocks * (size_t)64
+                                   : tree->binary.usedNodes * sizeof(BVH::BVHNode) +
+                                         tree->binary.idxCount * sizeof(uint32_t);
 }
 
 /* It makes the direction a unit vector, so that t is another. */
@@ -111,32 +101,48 @@ static Ray asked_of(const rt_ray &r, float t_max, float *length)
                t_max < BVH_FAR ? t_max * *length : BVH_FAR);
 }
 
-static void nearest(void *of, const rt_ray *rays, int count, float *t)
+template <typename Tree>
+static void all_nearest(const Tree &tree, const rt_ray *rays, int count, float *t)
 {
-    const wide_tree *tree = (const wide_tree *)of;
     for (int i = 0; i < count; i++) {
         float length;
         Ray ray = asked_of(rays[i], INFINITY, &length);
-        tree->binary.Intersect(ray);
+        tree.Intersect(ray);
         t[i] = ray.hit.t < BVH_FAR ? ray.hit.t / length : INFINITY;
     }
+}
+
+template <typename Tree>
+static void all_blocked(const Tree &tree, const rt_ray *rays, int count, float *t)
+{
+    for (int i = 0; i < count; i++) {
+        float length;
+        const Ray ray = asked_of(rays[i], 1.0f, &length);
+        t[i] = tree.IsOccluded(ray) ? 1.0f : INFINITY;
+    }
+}
+
+static void nearest(void *of, const rt_ray *rays, int count, float *t)
+{
+    const wide_tree *tree = (const wide_tree *)of;
+    if (tree->scene->mesh_count)
+        all_nearest(tree->wide, rays, count, t);
+    else
+        all_nearest(tree->binary, rays, count, t);
 }
 
 static void blocked(void *of, const rt_ray *rays, int count, float *t)
 {
     const wide_tree *tree = (const wide_tree *)of;
-    for (int i = 0; i < count; i++) {
-        float length;
-        const Ray ray = asked_of(rays[i], 1.0f, &length);
-        t[i] = tree->binary.IsOccluded(ray) ? 1.0f : INFINITY;
-    }
+    if (tree->scene->mesh_count)
+        all_blocked(tree->wide, rays, count, t);
+    else
+        all_blocked(tree->binary, rays, count, t);
 }
 
 static void close(void *of)
 {
-    wide_tree *tree = (wide_tree *)of;
-    free(tree->corners);
-    delete tree;
+    delete (wide_tree *)of;
 }
 
 const candidate tinybvh_wide = {"tinybvh", open, build, bytes, nearest, blocked, close};
