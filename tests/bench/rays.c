@@ -1,15 +1,10 @@
 /* Single rays on one core: rt.h's tree beside Embree and tinybvh, the same rays asked of each in
  * one run.
  *
- *     make bench-rays                     compile and run, with the peers that are there
- *     make bench-rays TINYBVH=directory   ... and this is where tiny_bvh.h is
- *     tests/bench/run --rays SCENE...     the same; only these scenes
- *
- * By hand, with Embree and without tinybvh:
- *
- *     gcc -std=gnu99 -O3 -march=native -fno-math-errno -ffp-contract=off -fopenmp -o build/rays \
- *         -DWITH_EMBREE tests/bench/rays.c tests/bench/embree.c -lembree3 -lm
- *     build/rays 5 1e4 1e6 | column -ts "$(printf '\t')"     5 rounds
+ *     make bench-rays                     all scenes, with the peers that are there
+ *     make bench-rays TINYBVH=directory   ... and tiny_bvh.h is there
+ *     tests/bench/run --rays 3 sponge "10000 spheres"     3 rounds, only these
+ *     build/bench/rays 3 1e6              afterwards, without compiling: a row each
  *
  * A SCENE is icosphere, landscape or sponge, meshes of 1.3, 1.0 and 0.7 million triangles; or a
  * number of spheres, at most 1e7. Of each row, tab between its values: scene,
@@ -283,9 +278,9 @@ static void measure_spheres(const char *name, int count, int rounds)
 
 int main(int argc, char **argv)
 {
-    static const char *const all[] = {"icosphere",   "landscape",    "sponge",
-                                      "100 spheres", "1000 spheres", "10000 spheres",
-                                      "1e5 spheres", "1e6 spheres"};
+    static const char *const all[] = {"icosphere",      "landscape",      "sponge",
+                                      "100 spheres",    "1000 spheres",   "10000 spheres",
+                                      "100000 spheres", "1000000 spheres"};
     const int rounds = argc > 1 ? atoi(argv[1]) : 3;
     const int count = argc > 2 ? argc - 2 : (int)(sizeof all / sizeof *all);
     for (int i = 0; i < count; i++) {
