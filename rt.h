@@ -1312,8 +1312,8 @@ typedef struct rt_bvh_node {
 
 /* What rt_build_bvh makes of a scene. All zero is an empty one. */
 typedef struct rt_bvh {
-    rt_bvh_node *nodes;          /* nodes[0] is around everything */
-    int node_count, shape_count; /* shapes, every triangle being one */
+    rt_bvh_node *nodes; /* nodes[0] is around everything */
+    int node_count, sphere_count, box_count, triangle_count, custom_shape_count;
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
@@ -2535,14 +2535,20 @@ static inline bool rt_hit_custom_shape(const rt_custom_shape *shape, const rt_ra
  * rt_intersect, ask every triangle; they count spheres, boxes, the triangles of the first
  * mesh, of the second, ..., custom shapes. */
 
-/* How many numbers there are: so many shapes does the tree ask, or INT_MAX if that does
- * not fit an int. */
+/* How many triangles all meshes have, and how many of those numbers there are: what does
+ * not fit an int counts as INT_MAX. */
+static inline int rt__triangle_count(const rt_scene *scene)
+{
+    int64_t count = 0;
+    for (int i = 0; scene->meshes && i < scene->mesh_count && count < INT_MAX; i++)
+        count += scene->meshes[i].triangle_count;
+    return count < INT_MAX ? (int)count : INT_MAX;
+}
+
 static inline int rt__primitive_count(const rt_scene *scene)
 {
-    int64_t count = (int64_t)scene->sphere_count + scene->box_count;
-    for (int i = 0; i < scene->mesh_count && count < INT_MAX; i++)
-        count += scene->meshes[i].triangle_count;
-    count += scene->custom_shape_count;
+    const int64_t count = (int64_t)scene->sphere_count + scene->box_count +
+                          rt__triangle_count(scene) + scene->custom_shape_count;
     return count < INT_MAX ? (int)count : INT_MAX;
 }
 
@@ -3608,8 +3614,11 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
     *i = 0;
     if (!rt__within(scene->background, 0.0f, RT__LARGEST))
         return RT_BAD_BACKGROUND;
-    if (scene->bvh &&
-        (!scene->bvh->nodes || scene->bvh->shape_count != rt__primitive_count(scene)))
+    const rt_bvh *bvh = scene->bvh;
+    if (bvh && (!bvh->nodes || bvh->sphere_count != scene->sphere_count ||
+                bvh->box_count != scene->box_count ||
+                bvh->triangle_count != rt__triangle_count(scene) ||
+                bvh->custom_shape_count != scene->custom_shape_count))
         return RT_BAD_BVH;
     return RT_OK;
 }
@@ -3944,14 +3953,14 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     if (!scene || !bvh)
         return RT_BAD_POINTER;
     memset(bvh, 0, sizeof *bvh);
+    const int count = rt__primitive_count(scene);
+    if (count == INT_MAX)
+        return RT_NO_MEMORY; /* their numbers would not be ints */
     rt_scene shapes = *scene;
     shapes.bvh = NULL;
     const rt_status status = rt_check_scene(&shapes, NULL);
     if (status != RT_OK)
         return status;
-    const int count = rt__primitive_count(scene);
-    if (count == INT_MAX)
-        return RT_NO_MEMORY;            /* their numbers would not be ints */
     const size_t n = (size_t)count + 1; /* at least one */
     /* A node has eight boxes, or only shapes in them, two at least. So of L nodes with
      * only shapes and I others, 7 I = L - 1 + (shapes in the others), and I + L is
@@ -3968,7 +3977,10 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
             order[i] = i;
         }
         rt__build_nodes(bvh, bounds, order, count);
-        bvh->shape_count = count;
+        bvh->sphere_count = scene->sphere_count;
+        bvh->box_count = scene->box_count;
+        bvh->triangle_count = rt__triangle_count(scene);
+        bvh->custom_shape_count = scene->custom_shape_count;
     }
     RT_FREE(bounds);
     RT_FREE(order);
