@@ -35,7 +35,7 @@ HEADERS := rt.h $(wildcard demos/*.h)
 PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
-.PHONY: help deps demos test golden check bench docs web deps-web starters try grade install clean $(DEMOS)
+.PHONY: help deps demos test golden check bench bench-rays docs web deps-web starters try grade install clean $(DEMOS)
 
 help: ## this list
 	@echo '  make demo01 ... demo15  build and run a chapter; ARGS="1280 960 --samples 64"'
@@ -122,8 +122,12 @@ check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windo
 
 # ---------------------------------------------------------------------------- the rest
 
-bench: ## speed against the report's way and other renderers, about a minute
+bench: ## speed against the report's way and other renderers, below two minutes
 	@CC='$(CC)' CXX='$(CXX)' CFLAGS='$(MACHINE) $(CFLAGS)' OPENMP='$(OPENMP)' BUILD='$(BUILD)' tests/bench/run
+
+bench-rays: ## single rays beside Embree and tinybvh: TINYBVH=where tiny_bvh.h is
+	@CC='$(CC)' CXX='$(CXX)' CFLAGS='$(MACHINE) $(CFLAGS)' OPENMP='$(OPENMP)' BUILD='$(BUILD)' \
+	    TINYBVH='$(TINYBVH)' tests/bench/run --rays 5
 
 docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/site/index.html, build/rt.pdf
 	@for demo in $(DEMOS); do \
