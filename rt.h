@@ -54,12 +54,13 @@
  *
  * WHAT IT IS      Spheres, axis-aligned boxes, point lights, mirrors, diffuse surfaces,
  *                 direct and indirect light, on all cores. Part two: glass, gloss,
- *                 patterns, lamps with a size, a sky, a lens. C99 and C++17, libc, libm.
- * WHAT IT IS NOT  No meshes; no files, no windows. It does not print, exit, or keep
- *                 global state, and allocates only for rt_build_bvh and while rt_render
- *                 or rt_denoise runs.
+ *                 patterns, lamps with a size, a sky, a lens, meshes of triangles, shapes
+ *                 of your own. C99 and C++17, libc, libm.
+ * WHAT IT IS NOT  No files, no windows. It does not print, exit, or keep global state,
+ *                 and allocates only for rt_build_bvh and while rt_render or rt_denoise
+ *                 runs.
  *
- * HOW TO READ IT  From top to bottom. Chapters 0 to 15 are plain C, each on top of the
+ * HOW TO READ IT  From top to bottom. Chapters 0 to 17 are plain C, each on top of the
  *                 ones before; demos/demoNN and docs/NN- have the same numbers. The
  *                 machinery that runs them on all cores, several rays at a time, stands
  *                 last, under RT_IMPLEMENTATION.
@@ -132,6 +133,8 @@
  *                13 gloss              rt_sample_gloss, rt_gloss, rt_scatter
  *                14 a lens and a sky   rt_lens, rt_lens_ray, rt_sky
  *                15 patterns           rt_albedo
+ *                16 triangles          rt_mesh, rt_hit_triangle
+ *                17 your own shape     rt_custom_shape
  *                   all of part two    rt_radiance_mis
  *                   pictures           rt_image, rt_options, rt_render, rt_build_bvh
  *
@@ -367,7 +370,7 @@ static inline void rt_sincos(float turns, float *sine, float *cosine)
 /* ====================================================================================
  * Your own routines
  *
- * These are the functions that chapters 1 to 14 are about. You may write any of them
+ * These are the functions that chapters 1 to 16 are about. You may write any of them
  * yourself. Say so in one line before the include, and define yours after it:
  *
  *     #define rt_reflect my_reflect
@@ -394,6 +397,7 @@ struct rt_scene;
 struct rt_rng;
 struct rt_lamp;
 struct rt_lens;
+struct rt_mesh;
 
 static inline struct rt_ray rt_camera_ray(const struct rt_camera *camera, int width,
                                           int height, float x, float y);
@@ -434,6 +438,9 @@ static inline float rt_gloss(rt_vec3 normal, rt_vec3 to_eye, rt_vec3 to_light,
 static inline struct rt_ray rt_lens_ray(const struct rt_camera *camera,
                                         const struct rt_lens *lens,
                                         const struct rt_ray *pinhole, float r1, float r2);
+static inline bool rt_hit_triangle(const struct rt_mesh *mesh, int triangle,
+                                   const struct rt_ray *ray, float t_max,
+                                   struct rt_hit *hit);
 
 #if defined(rt_camera_ray) || defined(rt_hit_sphere) || defined(rt_intersect) ||         \
     defined(rt_lambert) || defined(rt_hit_box) || defined(rt_leave) ||                   \
@@ -441,7 +448,8 @@ static inline struct rt_ray rt_lens_ray(const struct rt_camera *camera,
     defined(rt_reflect) || defined(rt_random) || defined(rt_sample_cosine) ||            \
     defined(rt_radiance) || defined(rt_fresnel) || defined(rt_refract) ||                \
     defined(rt_sample_lamp) || defined(rt_lamp_density) || defined(rt_mis) ||            \
-    defined(rt_sample_gloss) || defined(rt_gloss) || defined(rt_lens_ray)
+    defined(rt_sample_gloss) || defined(rt_gloss) || defined(rt_lens_ray) ||             \
+    defined(rt_hit_triangle)
 #define RT__OWN /* no packets: they would not call it */
 #endif
 
@@ -583,7 +591,19 @@ typedef struct rt_hit {
     rt_vec3 normal;              /* N, unit length, on the side that the ray comes from */
     const rt_material *material; /* of the shape that was hit */
     int shape; /* its number in the scene: spheres first, then boxes; 0 from rt_hit_... */
+    /* The rest is for part two, chapters 16 and 17; 0 for spheres and boxes. */
+    int part;    /* of a mesh: which triangle */
+    float u, v;  /* where on it */
+    bool inside; /* does the ray come from inside of the mesh or custom shape? */
 } rt_hit;
+
+/* Nothing of part two. */
+static inline void rt__only_part_one(rt_hit *hit)
+{
+    hit->part = 0;
+    hit->u = hit->v = 0.0f;
+    hit->inside = false;
+}
 
 /* The smallest t with 0 < t < t_max for which the ray meets the sphere, or 0.
  *
@@ -652,6 +672,7 @@ static inline bool rt__hit_sphere_at(const rt_sphere *sphere, const rt_ray *ray,
     hit->normal = rt_to_float(rt_dscale(n, rt_ddot(n, u) > 0.0 ? -1.0 : 1.0));
     hit->material = &sphere->material;
     hit->shape = 0;
+    rt__only_part_one(hit);
     return true;
 }
 
@@ -699,9 +720,11 @@ typedef struct rt_light {
 /* The light that comes from far away in a direction: see chapter 14. */
 typedef rt_vec3 rt_sky_function(const void *data, rt_vec3 direction);
 
-struct rt_bvh;     /* chapter 8 */
-struct rt_surface; /* 11 */
-struct rt_lamp;    /* 12 */
+struct rt_bvh;          /* chapter 8 */
+struct rt_surface;      /* 11 */
+struct rt_lamp;         /* 12 */
+struct rt_mesh;         /* 16 */
+struct rt_custom_shape; /* 17 */
 
 /* The arrays are yours: they must live as long as the scene is used. NULL with 0 is fine.
  */
@@ -715,12 +738,17 @@ typedef struct rt_scene {
     rt_vec3 background; /* the light that comes from where nothing is hit; 0 is black */
     const struct rt_bvh *bvh; /* for many shapes, see chapter 8; NULL: rt_intersect and
                                  rt_occluded ask each of them */
-    /* The rest is for part two, chapters 11 to 15; all zero, it changes nothing. */
-    const struct rt_surface *surfaces; /* NULL, or one for each sphere, then each box */
+    /* The rest is for part two, chapters 11 to 17; all zero, it changes nothing. */
+    const struct rt_surface *surfaces; /* NULL, or one for each sphere, then each box,
+                                          each mesh, each custom shape */
     const struct rt_lamp *lamps;
     int lamp_count;
     rt_sky_function *sky; /* NULL, or in place of the background, handed sky_data */
     const void *sky_data;
+    const struct rt_mesh *meshes;
+    int mesh_count;
+    const struct rt_custom_shape *custom_shapes;
+    int custom_shape_count;
 } rt_scene;
 
 static inline float rt__meet_box(const rt_box *box, const rt_ray *ray,
@@ -729,11 +757,14 @@ static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray
                                  double t, rt_hit *hit); /* at its end */
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit); /* chapter 8 */
+static inline int rt__nearest_other(const rt_scene *scene, const rt_ray *ray, float t_max,
+                                    bool any); /* chapters 16, 17 */
 
 /* The nearest hit of the ray in the scene: ask every shape for a t that is smaller than
  * the smallest so far, and the last one that had it for point and normal. Of two at
  * exactly the same distance the first wins, spheres before boxes; hit->shape is its
- * number. Returns false, and leaves *hit alone, if there is none. */
+ * number. Returns false, and leaves *hit alone, if there is none. Part two adds two kinds
+ * of shapes, which come after the boxes. */
 #ifndef rt_intersect
 static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
 {
@@ -757,6 +788,9 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
             best = scene->sphere_count + i;
         }
     }
+    const int more = rt__nearest_other(scene, ray, t_max, false);
+    if (more >= 0)
+        best = more;
     return best >= 0 && rt__hit_shape(scene, best, ray, best_t, hit);
 }
 #endif
@@ -877,6 +911,7 @@ static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
     hit->normal = rt_vec(0.0f, 0.0f, 0.0f);
     hit->material = &box->material;
     hit->shape = 0;
+    rt__only_part_one(hit);
     /* the normal against the ray, and the point exactly onto the plane */
     switch (inside ? slabs.axis_out : slabs.axis_in) {
     case 0:
@@ -923,12 +958,17 @@ static inline float rt__pull(float p, float origin)
     return (pulled > origin) == (p > origin) ? pulled : origin;
 }
 
+static inline bool rt__hit_other(const rt_scene *scene, int number, const rt_ray *ray,
+                                 rt_hit *hit); /* 16, 17 */
+
 /* The hit of the shape with this number; of a sphere at t, or wherever it is if that is
  * 0. Of a box, P is pulled back along the face. */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                  double t, rt_hit *hit)
 {
     const int box = number - scene->sphere_count;
+    if (box >= scene->box_count)
+        return rt__hit_other(scene, number, ray, hit);
     const rt_sphere *sphere = box < 0 ? &scene->spheres[number] : NULL;
     const bool found = !sphere   ? rt_hit_box(&scene->boxes[box], ray, FLT_MAX, hit)
                        : t > 0.0 ? rt__hit_sphere_at(sphere, ray, t, hit)
@@ -987,7 +1027,7 @@ static inline bool rt_occluded(const rt_scene *scene, const rt_ray *ray, float t
     for (int i = 0; i < scene->box_count; i++)
         if (rt__meet_box(&scene->boxes[i], ray, t_max) > 0.0f)
             return true;
-    return false;
+    return rt__nearest_other(scene, ray, t_max, true) >= 0;
 }
 #endif
 
@@ -1283,8 +1323,9 @@ typedef union rt_bvh_row {
 } rt_bvh_row;
 
 enum {
-    RT__SPHERES, /* x, y, z, radius */
-    RT__BOXES,   /* min x, y, z, max x, y, z */
+    RT__SPHERES,   /* x, y, z, radius */
+    RT__BOXES,     /* min x, y, z, max x, y, z; and custom shapes: boxes around them */
+    RT__TRIANGLES, /* A x, y, z, B x, y, z, C x, y, z */
     RT__KINDS
 };
 
@@ -1292,9 +1333,9 @@ enum {
 typedef struct rt_bvh {
     rt_bvh_node *nodes; /* nodes[0] is around everything */
     rt_bvh_row *rows;
-    int node_count, row_count, sphere_count, box_count;
-    void *memory;                /* in which all of them lie */
-    rt__search_function *search; /* NULL, or that of the last section */
+    int node_count, row_count, shape_count; /* shapes, every triangle being one */
+    void *memory;                           /* in which nodes and rows lie */
+    rt__search_function *search;            /* NULL, or that of the last section */
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
@@ -1388,13 +1429,17 @@ static inline int rt__lowest(unsigned bits)
 #endif
 }
 
+static inline float rt__meet_other(const rt_scene *scene, int number, const rt_ray *ray,
+                                   float t_max); /* 16, 17 */
+
 /* The t at which the ray meets the shape with this number, or 0. */
 static inline float rt__meet_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                    float t_max)
 {
-    return number < scene->sphere_count
-               ? (float)rt__meet_sphere(&scene->spheres[number], ray, t_max)
-               : rt__meet_box(&scene->boxes[number - scene->sphere_count], ray, t_max);
+    const int box = number - scene->sphere_count;
+    return box < 0 ? (float)rt__meet_sphere(&scene->spheres[number], ray, t_max)
+           : box < scene->box_count ? rt__meet_box(&scene->boxes[box], ray, t_max)
+                                    : rt__meet_other(scene, number, ray, t_max);
 }
 
 /* What a ray on its way through the tree has yet to look at: a leaf or a node (inside,
@@ -1772,6 +1817,9 @@ typedef struct rt_surface {
     const void *pattern_data;     /* handed to it */
 } rt_surface;
 
+static inline int rt__other_number(const rt_scene *scene,
+                                   const rt_material *material); /* 16, 17 */
+
 /* The number of the shape that was hit; a routine of your own need not know it, so then
  * it is the one that has the material. -1 if there is none. */
 static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
@@ -1783,7 +1831,7 @@ static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
     for (int i = 0; i < scene->box_count; i++)
         if (&scene->boxes[i].material == hit->material)
             return scene->sphere_count + i;
-    return -1;
+    return rt__other_number(scene, hit->material);
 #else
     (void)scene;
     return hit->shape;
@@ -1806,6 +1854,8 @@ static inline bool rt_is_inside(const rt_scene *scene, const rt_hit *hit)
     const int number = rt__shape_number(scene, hit), box = number - scene->sphere_count;
     if (number < 0)
         return false;
+    if (box >= scene->box_count) /* chapters 16 and 17 */
+        return hit->inside;
     const rt_vec3 middle =
         box < 0 ? scene->spheres[number].center
                 : rt_scale(rt_add(scene->boxes[box].min, scene->boxes[box].max), 0.5f);
@@ -2317,6 +2367,367 @@ static inline rt_vec3 rt_albedo(const rt_surface *surface, const rt_hit *hit)
 }
 
 /* ====================================================================================
+ * Chapter 16. Triangles
+ * ==================================================================================== */
+
+/* A mesh of triangles: what a model from a file consists of. The arrays are yours. Of one
+ * triangle three corners A, B, C count, so neighbours share positions, and a corner that
+ * moves takes all of its triangles along. A mesh of several materials is several meshes. */
+typedef struct rt_mesh {
+    const rt_vec3 *positions;
+    const int *indices; /* three for each triangle, into positions: A, B, C, as seen from
+                           outside counterclockwise (only glass asks for the side) */
+    int position_count, triangle_count;
+    rt_material material;
+} rt_mesh;
+
+/* Corner k of a triangle: 0 is A, 1 is B, 2 is C. */
+static inline rt_vec3 rt_corner(const rt_mesh *mesh, int triangle, int k)
+{
+    return mesh->positions[mesh->indices[3 * (size_t)triangle + (size_t)k]];
+}
+
+/* (B - A) x (C - A): across the triangle, to its outside, twice its area long. */
+static inline rt_dvec3 rt__across_corners(rt_vec3 a, rt_vec3 b, rt_vec3 c)
+{
+    return rt_dcross(rt_dsub(rt_to_double(b), rt_to_double(a)),
+                     rt_dsub(rt_to_double(c), rt_to_double(a)));
+}
+
+static inline rt_dvec3 rt__across(const rt_mesh *mesh, int triangle)
+{
+    return rt__across_corners(rt_corner(mesh, triangle, 0), rt_corner(mesh, triangle, 1),
+                              rt_corner(mesh, triangle, 2));
+}
+
+#ifndef rt_hit_triangle
+/* The world as the ray sees it: C is the origin, and the ray is the axis z. The axis
+ * along which u is longest becomes z; then a shear, which moves every point sideways in
+ * proportion to its z, straightens the ray:
+ *
+ *     x = p_x - (u_x / u_z) p_z,     y = p_y - (u_y / u_z) p_z     of p = A - C.
+ *
+ * Now the ray meets what is at x = y = 0. */
+typedef struct rt__shear {
+    rt_vec3 origin;
+    int axis;       /* the one that becomes z: 0, 1, 2 stand for x, y, z */
+    double x, y, z; /* u_x / u_z, u_y / u_z, 1 / u_z; z 0: no direction */
+} rt__shear;
+
+/* v with its coordinates moved round, so that the axis comes last. */
+static inline rt_dvec3 rt__turned(rt_vec3 v, int axis)
+{
+    const rt_dvec3 d = rt_to_double(v);
+    return axis == 0 ? rt_dvec(d.y, d.z, d.x) : axis == 1 ? rt_dvec(d.z, d.x, d.y) : d;
+}
+
+static inline rt__shear rt__shear_of(const rt_ray *ray)
+{
+    const float x = fabsf(ray->direction.x), y = fabsf(ray->direction.y);
+    const float z = fabsf(ray->direction.z);
+    rt__shear shear;
+    shear.origin = ray->origin;
+    shear.axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    const rt_dvec3 u = rt__turned(ray->direction, shear.axis);
+    shear.z = u.z != 0.0 ? 1.0 / u.z : 0.0;
+    shear.x = u.x * shear.z;
+    shear.y = u.y * shear.z;
+    return shear;
+}
+
+static inline rt_dvec3 rt__sheared(const rt__shear *shear, rt_vec3 corner)
+{
+    const rt_dvec3 p =
+        rt_dsub(rt__turned(corner, shear->axis), rt__turned(shear->origin, shear->axis));
+    return rt_dvec(p.x - shear->x * p.z, p.y - shear->y * p.z, p.z);
+}
+
+/* The t at which the ray meets the triangle A, B, C, or 0; and in *weights how much of
+ * each corner is in P, times any number.
+ *
+ * Seen along the ray, the triangle is flat, and the ray is the point (0,0). On which side
+ * of the edge from A to B does it lie? That tells the sign of
+ *
+ *     w_C = B_x A_y - B_y A_x,
+ *
+ * twice the area of (0,0), A, B. If all three edges have it on the same side, it is in
+ * the triangle, and w_A : w_B : w_C are its barycentric coordinates. With them
+ *
+ *     z = (w_A A_z + w_B B_z + w_C C_z) / (w_A + w_B + w_C),     t = z / u_z.
+ *
+ * Nothing gets through between two triangles, not even where a ray meets their common
+ * edge or corner. For each corner is sheared once, to the same numbers in every triangle
+ * that it belongs to. Of the common edge both compute the same two products, so one has w
+ * where the other has -w. Rounded products are in the order of the exact ones or equal,
+ * so w has the right sign or is 0. And 0 counts as inside. In float that would do against
+ * holes, too, but a ray next to an edge would often get the wrong neighbour; hence
+ * double.
+ *
+ * Method: S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT
+ * 2(1), 2013. */
+static inline double rt__meet_corners(const rt__shear *shear, rt_vec3 corner_a,
+                                      rt_vec3 corner_b, rt_vec3 corner_c, float t_max,
+                                      rt_dvec3 *weights)
+{
+    const rt_dvec3 a = rt__sheared(shear, corner_a);
+    const rt_dvec3 b = rt__sheared(shear, corner_b);
+    const rt_dvec3 c = rt__sheared(shear, corner_c);
+    const double w_a = c.x * b.y - c.y * b.x;
+    const double w_b = a.x * c.y - a.y * c.x;
+    const double w_c = b.x * a.y - b.y * a.x;
+    if ((w_a < 0.0 || w_b < 0.0 || w_c < 0.0) && (w_a > 0.0 || w_b > 0.0 || w_c > 0.0))
+        return 0.0;
+    const double sum = w_a + w_b + w_c;
+    if (!(sum != 0.0)) /* seen from the edge, or no area */
+        return 0.0;
+    const double t = (w_a * a.z + w_b * b.z + w_c * c.z) * shear->z / sum;
+    if (!(t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max))
+        return 0.0;
+    *weights = rt_dvec(w_a, w_b, w_c);
+    const rt_dvec3 n = rt__across_corners(corner_a, corner_b, corner_c);
+    return rt_ddot(n, n) > 0.0 ? t : 0.0; /* rounding may give a line an area */
+}
+
+static inline double rt__meet_triangle(const rt_mesh *mesh, int triangle,
+                                       const rt__shear *shear, float t_max,
+                                       rt_dvec3 *weights)
+{
+    return rt__meet_corners(shear, rt_corner(mesh, triangle, 0),
+                            rt_corner(mesh, triangle, 1), rt_corner(mesh, triangle, 2),
+                            t_max, weights);
+}
+
+/* The point of the triangle on the ray, if 0 < t < t_max. See above how it is found. P is
+ * the mean of the corners with these weights, in double and rounded once: so it is as
+ * good from afar as from near. The normal is that of the flat triangle; hit->part is its
+ * number, and P = (1 - u - v) A + u B + v C.
+ *
+ * Returns false, and leaves *hit alone, on a miss. A triangle without area, one that is
+ * seen exactly from the edge, NaN and infinity are misses. */
+static inline bool rt_hit_triangle(const rt_mesh *mesh, int triangle, const rt_ray *ray,
+                                   float t_max, rt_hit *hit)
+{
+    const rt__shear shear = rt__shear_of(ray);
+    rt_dvec3 w;
+    const double t = rt__meet_triangle(mesh, triangle, &shear, t_max, &w);
+    if (!(t > 0.0))
+        return false;
+    w = rt_dscale(w, 1.0 / (w.x + w.y + w.z));
+    const rt_dvec3 a = rt_dscale(rt_to_double(rt_corner(mesh, triangle, 0)), w.x);
+    const rt_dvec3 ab = rt_dmad(a, w.y, rt_to_double(rt_corner(mesh, triangle, 1)));
+    const rt_dvec3 n = rt_dnormalize(rt__across(mesh, triangle));
+    hit->t = (float)t;
+    hit->point =
+        rt_to_float(rt_dmad(ab, w.z, rt_to_double(rt_corner(mesh, triangle, 2))));
+    hit->inside = rt_ddot(n, rt_to_double(ray->direction)) > 0.0;
+    hit->normal = rt_to_float(rt_dscale(n, hit->inside ? -1.0 : 1.0));
+    hit->material = &mesh->material;
+    hit->shape = 0;
+    hit->part = triangle;
+    hit->u = (float)w.y;
+    hit->v = (float)w.z;
+    return true;
+}
+#endif
+
+/* ====================================================================================
+ * Chapter 17. Your own shape
+ *
+ * All that the rest asks of a shape is the question of chapter 1: where does this ray
+ * meet it first? So whoever can answer that has a new shape: a function, and a box around
+ * it for the tree.
+ * ==================================================================================== */
+
+/* The first point of your shape on the ray with 0 < t < t_max, as rt_hit_sphere finds it
+ * for a sphere. On a hit it sets t, point and normal, which must point outward, of any
+ * length, and returns true; it may set part, u and v to what it likes. data is the
+ * shape's. The direction has any length. It is called on many threads at once. */
+typedef bool rt_hit_function(const void *data, const rt_ray *ray, float t_max,
+                             rt_hit *hit);
+
+typedef struct rt_custom_shape {
+    rt_vec3 min, max; /* opposite corners of a box around it, min <= max */
+    rt_material material;
+    rt_hit_function *hit;
+    const void *data; /* handed to it */
+} rt_custom_shape;
+
+/* The box, larger by a thousandth of its longest side: so tight boxes do no harm. */
+static inline void rt__loosen(const rt_custom_shape *shape, rt_vec3 *low, rt_vec3 *high)
+{
+    const rt_vec3 size = rt_sub(shape->max, shape->min);
+    float longest = size.x > size.y ? size.x : size.y;
+    longest = longest > size.z ? longest : size.z;
+    const rt_vec3 more = rt_scale(rt_vec(1.0f, 1.0f, 1.0f), 1e-3f * longest);
+    *low = rt_sub(shape->min, more);
+    *high = rt_add(shape->max, more);
+}
+
+/* Ask the shape's function, and complete its answer: the normal becomes a unit vector on
+ * the side that the ray comes from. Whether that is the inside, says hit->inside.
+ *
+ * Returns false, and leaves *hit alone, on a miss. An answer that makes no sense is one:
+ * t not between 0 and t_max, no normal, a point that sticks out of the box by more than a
+ * thousandth of its longest side, for the tree would not find it there. */
+static inline bool rt_hit_custom_shape(const rt_custom_shape *shape, const rt_ray *ray,
+                                       float t_max, rt_hit *hit)
+{
+    rt_hit answer;
+    memset(&answer, 0, sizeof answer);
+    if (!shape->hit(shape->data, ray, t_max, &answer) ||
+        !(answer.t >= FLT_MIN && answer.t < t_max))
+        return false;
+    rt_vec3 low, high;
+    const rt_vec3 p = answer.point, n = rt_normalize(answer.normal);
+    rt__loosen(shape, &low, &high);
+    if (!(p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x &&
+          p.y <= high.y && p.z <= high.z) ||
+        rt_is_zero(n))
+        return false;
+    answer.inside = rt_dot(n, ray->direction) > 0.0f;
+    answer.normal = answer.inside ? rt_scale(n, -1.0f) : n;
+    answer.material = &shape->material;
+    answer.shape = 0;
+    *hit = answer;
+    return true;
+}
+
+/* ---- both of them in a scene -----------------------------------------------------
+ *
+ * rt_hit.shape counts spheres, boxes, meshes, custom shapes. The tree, and the loop of
+ * rt_intersect, ask every triangle; they count spheres, boxes, the triangles of the first
+ * mesh, of the second, ..., custom shapes. */
+
+/* How many numbers there are: so many shapes does the tree ask, or INT_MAX if that does
+ * not fit an int. */
+static inline int rt__primitive_count(const rt_scene *scene)
+{
+    int64_t count = (int64_t)scene->sphere_count + scene->box_count;
+    for (int i = 0; i < scene->mesh_count && count < INT_MAX; i++)
+        count += scene->meshes[i].triangle_count;
+    count += scene->custom_shape_count;
+    return count < INT_MAX ? (int)count : INT_MAX;
+}
+
+/* Whose number that is: mesh and triangle, or mesh == scene->mesh_count and custom shape.
+ */
+typedef struct rt__other {
+    int mesh, part;
+} rt__other;
+
+static inline rt__other rt__other_of(const rt_scene *scene, int number)
+{
+    rt__other p;
+    p.part = number - scene->sphere_count - scene->box_count;
+    for (p.mesh = 0; p.mesh < scene->mesh_count; p.mesh++) {
+        if (p.part < scene->meshes[p.mesh].triangle_count)
+            break;
+        p.part -= scene->meshes[p.mesh].triangle_count;
+    }
+    return p;
+}
+
+static inline int rt__shape_count(const rt_scene *scene)
+{
+    return scene->sphere_count + scene->box_count + scene->mesh_count +
+           scene->custom_shape_count;
+}
+
+static inline float rt__meet_one(const rt_scene *scene, rt__other p, const rt_ray *ray,
+                                 float t_max)
+{
+    rt_hit hit;
+    if (p.mesh == scene->mesh_count)
+        return rt_hit_custom_shape(&scene->custom_shapes[p.part], ray, t_max, &hit)
+                   ? hit.t
+                   : 0.0f;
+#ifdef rt_hit_triangle /* by yours */
+    return rt_hit_triangle(&scene->meshes[p.mesh], p.part, ray, t_max, &hit) ? hit.t
+                                                                             : 0.0f;
+#else
+    const rt__shear shear = rt__shear_of(ray);
+    rt_dvec3 w;
+    return (float)rt__meet_triangle(&scene->meshes[p.mesh], p.part, &shear, t_max, &w);
+#endif
+}
+
+static inline float rt__meet_other(const rt_scene *scene, int number, const rt_ray *ray,
+                                   float t_max)
+{
+    return rt__meet_one(scene, rt__other_of(scene, number), ray, t_max);
+}
+
+/* The number of the nearest of them, of the first of several at the same t; or if any
+ * will do, of any; or -1. */
+static inline int rt__nearest_other(const rt_scene *scene, const rt_ray *ray, float t_max,
+                                    bool any)
+{
+    int best = -1, number = scene->sphere_count + scene->box_count;
+    rt__other p;
+    for (p.mesh = 0; p.mesh <= scene->mesh_count; p.mesh++) {
+        const int count = p.mesh < scene->mesh_count
+                              ? scene->meshes[p.mesh].triangle_count
+                              : scene->custom_shape_count;
+        for (p.part = 0; p.part < count; p.part++, number++) {
+            const float t = rt__meet_one(scene, p, ray, t_max);
+            if (t > 0.0f) {
+                t_max = t;
+                best = number;
+                if (any)
+                    return best;
+            }
+        }
+    }
+    return best;
+}
+
+static inline bool rt__hit_other(const rt_scene *scene, int number, const rt_ray *ray,
+                                 rt_hit *hit)
+{
+    const rt__other p = rt__other_of(scene, number);
+    const int before = scene->sphere_count + scene->box_count;
+    if (p.mesh == scene->mesh_count) {
+        if (!rt_hit_custom_shape(&scene->custom_shapes[p.part], ray, FLT_MAX, hit))
+            return false;
+        hit->shape = before + scene->mesh_count + p.part;
+        return true;
+    }
+    const rt_mesh *mesh = &scene->meshes[p.mesh];
+#ifdef rt_hit_triangle /* yours may set no more than the rt_hit_... of part one */
+    rt__only_part_one(hit);
+    hit->inside = rt_ddot(rt__across(mesh, p.part), rt_to_double(ray->direction)) > 0.0;
+#endif
+    if (!rt_hit_triangle(mesh, p.part, ray, FLT_MAX, hit))
+        return false;
+    hit->shape = before + p.mesh;
+    hit->part = p.part;
+    return true;
+}
+
+/* Of the shape with this rt_hit.shape. */
+static inline const rt_material *rt__material_of(const rt_scene *scene, int shape)
+{
+    const int box = shape - scene->sphere_count, mesh = box - scene->box_count;
+    const int custom = mesh - scene->mesh_count;
+    return box < 0      ? &scene->spheres[shape].material
+           : mesh < 0   ? &scene->boxes[box].material
+           : custom < 0 ? &scene->meshes[mesh].material
+                        : &scene->custom_shapes[custom].material;
+}
+
+static inline int rt__other_number(const rt_scene *scene, const rt_material *material)
+{
+    const int before = scene->sphere_count + scene->box_count;
+    for (int i = 0; i < scene->mesh_count; i++)
+        if (&scene->meshes[i].material == material)
+            return before + i;
+    for (int i = 0; i < scene->custom_shape_count; i++)
+        if (&scene->custom_shapes[i].material == material)
+            return before + scene->mesh_count + i;
+    return -1;
+}
+
+/* ====================================================================================
  * Part two, all of it together
  * ==================================================================================== */
 
@@ -2715,7 +3126,9 @@ typedef enum rt_status {
     RT_BAD_GUIDES,
     RT_BAD_SURFACE,
     RT_BAD_LAMP,
-    RT_BAD_LENS
+    RT_BAD_LENS,
+    RT_BAD_MESH,
+    RT_BAD_CUSTOM_SHAPE
 } rt_status;
 
 /* The colour seen through the point (x, y) of the film, an estimate with the numbers of
@@ -2799,7 +3212,7 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads);
 typedef struct rt_vertex {
     rt_ray ray;
     rt_hit hit;         /* of the shape, all zero if it met none */
-    int shape;          /* its number: spheres first, then boxes; -1: none, background */
+    int shape;          /* its number, as in rt_hit; -1: none, background */
     rt_vec3 throughput; /* how much of the light from here arrives at the camera */
     rt_vec3 light;      /* direct light here, or background; black on a mirror. It adds
                            throughput . light to the value of the sample */
@@ -3148,6 +3561,13 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_LENS:
         return "lens: make radius 0 to 1e15 and, unless it is 0, focus above 0 and at "
                "most 1e15";
+    case RT_BAD_MESH:
+        return "mesh: make every index at least 0 and less than position_count, all "
+               "coordinates at most 1e15, albedo 0 to 1, no count negative, no array of "
+               "it NULL; rt_check_scene tells which mesh";
+    case RT_BAD_CUSTOM_SHAPE:
+        return "custom shape: make its box's numbers at most 1e15, min at most max in x, "
+               "y and z, albedo 0 to 1, and set its function; rt_check_scene tells which";
     case RT_BAD_BACKGROUND: return "background: make it 0 to 1e15 in red, green and blue";
     }
     return "unknown status";
@@ -3185,6 +3605,28 @@ static inline bool rt__good_lamp(const rt_lamp *l)
                              : l->radius >= 1e-6f && l->radius <= RT__LARGEST;
 }
 
+static inline bool rt__good_mesh(const rt_mesh *m)
+{
+    if (!(m->position_count >= 0 && (m->position_count == 0 || m->positions) &&
+          m->triangle_count >= 0 && (m->triangle_count == 0 || m->indices) &&
+          rt__within(m->material.albedo, 0.0f, 1.0f)))
+        return false;
+    for (int i = 0; i < m->position_count; i++)
+        if (!rt__good_place(m->positions[i]))
+            return false;
+    const size_t corners = 3 * (size_t)m->triangle_count;
+    for (size_t i = 0; i < corners; i++)
+        if (m->indices[i] < 0 || m->indices[i] >= m->position_count)
+            return false;
+    return true;
+}
+
+static inline bool rt__good_box(rt_vec3 low, rt_vec3 high, const rt_material *material)
+{
+    return rt__good_place(low) && rt__good_place(high) && low.x <= high.x &&
+           low.y <= high.y && low.z <= high.z && rt__within(material->albedo, 0.0f, 1.0f);
+}
+
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
 {
     int nowhere = 0;
@@ -3194,7 +3636,9 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
         (scene->sphere_count > 0 && !scene->spheres) || scene->box_count < 0 ||
         (scene->box_count > 0 && !scene->boxes) || scene->light_count < 0 ||
         (scene->light_count > 0 && !scene->lights) || scene->lamp_count < 0 ||
-        (scene->lamp_count > 0 && !scene->lamps))
+        (scene->lamp_count > 0 && !scene->lamps) || scene->mesh_count < 0 ||
+        (scene->mesh_count > 0 && !scene->meshes) || scene->custom_shape_count < 0 ||
+        (scene->custom_shape_count > 0 && !scene->custom_shapes))
         return RT_BAD_POINTER;
     for (*i = 0; *i < scene->sphere_count; ++*i) {
         const rt_sphere *s = &scene->spheres[*i];
@@ -3204,17 +3648,23 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
     }
     for (*i = 0; *i < scene->box_count; ++*i) {
         const rt_box *b = &scene->boxes[*i];
-        if (!(rt__good_place(b->min) && rt__good_place(b->max) && b->min.x <= b->max.x &&
-              b->min.y <= b->max.y && b->min.z <= b->max.z &&
-              rt__within(b->material.albedo, 0.0f, 1.0f)))
+        if (!rt__good_box(b->min, b->max, &b->material))
             return RT_BAD_BOX;
+    }
+    for (*i = 0; *i < scene->mesh_count; ++*i)
+        if (!rt__good_mesh(&scene->meshes[*i]))
+            return RT_BAD_MESH;
+    for (*i = 0; *i < scene->custom_shape_count; ++*i) {
+        const rt_custom_shape *c = &scene->custom_shapes[*i];
+        if (!(c->hit && rt__good_box(c->min, c->max, &c->material)))
+            return RT_BAD_CUSTOM_SHAPE;
     }
     for (*i = 0; *i < scene->light_count; ++*i) {
         const rt_light *l = &scene->lights[*i];
         if (!(rt__good_place(l->position) && rt__within(l->intensity, 0.0f, RT__LARGEST)))
             return RT_BAD_LIGHT;
     }
-    const int shapes = scene->surfaces ? scene->sphere_count + scene->box_count : 0;
+    const int shapes = scene->surfaces ? rt__shape_count(scene) : 0;
     for (*i = 0; *i < shapes; ++*i)
         if (!rt__good_surface(&scene->surfaces[*i]))
             return RT_BAD_SURFACE;
@@ -3224,8 +3674,8 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
     *i = 0;
     if (!rt__within(scene->background, 0.0f, RT__LARGEST))
         return RT_BAD_BACKGROUND;
-    if (scene->bvh && (!scene->bvh->nodes || scene->bvh->box_count != scene->box_count ||
-                       scene->bvh->sphere_count != scene->sphere_count))
+    if (scene->bvh &&
+        (!scene->bvh->nodes || scene->bvh->shape_count != rt__primitive_count(scene)))
         return RT_BAD_BVH;
     return RT_OK;
 }
@@ -3328,14 +3778,33 @@ static inline float rt__component(rt_vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
+/* A box around a triangle or a custom shape. */
+static inline rt__bounds rt__other_bounds(const rt_scene *scene, rt__other p)
+{
+    rt__bounds b = rt__no_bounds();
+    if (p.mesh == scene->mesh_count) {
+        rt__loosen(&scene->custom_shapes[p.part], &b.min, &b.max);
+        return b;
+    }
+    for (int k = 0; k < 3; k++) {
+        const rt_vec3 corner = rt_corner(&scene->meshes[p.mesh], p.part, k);
+        b.min = rt__min(b.min, corner);
+        b.max = rt__max(b.max, corner);
+    }
+    return b;
+}
+
 /* A box around a shape, and a little more: its coordinates are rounded, and a ray in the
  * very plane of a face must enter it (for rt__inverse makes 0 of 0/0). */
 static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
 {
     rt__bounds b;
-    if (number >= scene->sphere_count) {
-        b.min = scene->boxes[number - scene->sphere_count].min;
-        b.max = scene->boxes[number - scene->sphere_count].max;
+    const int box = number - scene->sphere_count;
+    if (box >= scene->box_count) {
+        b = rt__other_bounds(scene, rt__other_of(scene, number));
+    } else if (box >= 0) {
+        b.min = scene->boxes[box].min;
+        b.max = scene->boxes[box].max;
     } else {
         const rt_sphere *s = &scene->spheres[number];
         const float radius = 1.001f * s->radius; /* from far away double is no better */
@@ -3367,7 +3836,8 @@ typedef struct rt__group {
 /* A node to be, and how many nodes and rows there are in it and below. */
 typedef struct rt__branch {
     rt__group groups[8]; /* count 0: none */
-    int nodes, rows;
+    int nodes;
+    int64_t rows;
 } rt__branch;
 
 static inline rt__bounds rt__middles_of(const rt__entry *entries, const rt__group *group)
@@ -3575,10 +4045,20 @@ static inline bool rt__is_large(const rt__group *group)
     return group->count > RT__TASK;
 }
 
-/* How many rows a leaf of this shape's kind has. */
-static inline int rt__rows(const rt_scene *scene, int number)
+/* The kind of the shape with this number, see rt_bvh_row, ... */
+static inline int rt__kind_of(const rt_scene *scene, int number)
 {
-    return number < scene->sphere_count ? 5 : 7;
+    const int box = number - scene->sphere_count;
+    return box < 0                                                 ? RT__SPHERES
+           : box < scene->box_count                                ? RT__BOXES
+           : rt__other_of(scene, number).mesh == scene->mesh_count ? RT__BOXES
+                                                                   : RT__TRIANGLES;
+}
+
+/* ... and how many rows a leaf of this kind has. */
+static inline int rt__rows(int kind)
+{
+    return kind == RT__SPHERES ? 5 : kind == RT__BOXES ? 7 : 10;
 }
 
 /* Branch number at, of which the groups are set, and all below it. */
@@ -3617,7 +4097,8 @@ static inline void rt__build_branch(const rt__builder *b, int at, int depth)
             branch->rows += b->branches[slice].rows;
             slice += rt__most_nodes(group->count);
         } else if (group->count > 0) {
-            branch->rows += rt__rows(b->scene, b->entries[group->first].number);
+            branch->rows +=
+                rt__rows(rt__kind_of(b->scene, b->entries[group->first].number));
         }
     }
 }
@@ -3632,37 +4113,56 @@ static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
     node->max_z[k] = b->max.z;
 }
 
-/* Column k of a leaf gets a shape; NaN, which meets nothing, if number is -1. Returns the
- * kind. */
-static inline void rt__set_column(const rt_scene *scene, int rows, int number,
-                                  rt_bvh_row *row, int k)
+static inline void rt__put_vec(float *to, rt_vec3 v)
 {
-    float values[9];
-    for (int i = 0; i < 9; i++)
-        values[i] = NAN;
-    if (number >= scene->sphere_count) {
-        const rt_box *box = &scene->boxes[number - scene->sphere_count];
-        memcpy(values, &box->min, 3 * sizeof *values);
-        memcpy(values + 3, &box->max, 3 * sizeof *values);
-    } else if (number >= 0) {
-        const rt_sphere *sphere = &scene->spheres[number];
-        memcpy(values, &sphere->center, 3 * sizeof *values);
-        values[3] = sphere->radius;
-    }
-    row->number[k] = number;
-    for (int i = 1; i < rows; i++)
-        row[i].value[k] = values[i - 1];
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
 }
 
-/* The leaf at rows[at]; returns what a node says of it. */
+/* What a leaf has of a shape. */
+static inline void rt__set_values(const rt_scene *scene, int number, float *values)
+{
+    const int box = number - scene->sphere_count;
+    if (box < 0) {
+        rt__put_vec(values, scene->spheres[number].center);
+        values[3] = scene->spheres[number].radius;
+        return;
+    }
+    if (box < scene->box_count) {
+        rt__put_vec(values, scene->boxes[box].min);
+        rt__put_vec(values + 3, scene->boxes[box].max);
+        return;
+    }
+    const rt__other p = rt__other_of(scene, number);
+    if (p.mesh == scene->mesh_count) {
+        const rt__bounds bounds = rt__other_bounds(scene, p);
+        rt__put_vec(values, bounds.min);
+        rt__put_vec(values + 3, bounds.max);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        rt__put_vec(values + 3 * k, rt_corner(&scene->meshes[p.mesh], p.part, k));
+}
+
+/* The leaf at rows[at]; returns what a node says of it. Columns without a shape are NaN,
+ * which meets nothing. */
 static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int at)
 {
     const rt__entry *entries = &b->entries[group->first];
-    const int rows = rt__rows(b->scene, entries->number);
-    for (int k = 0; k < 8; k++)
-        rt__set_column(b->scene, rows, k < group->count ? entries[k].number : -1,
-                       &b->bvh->rows[at], k);
-    return at << 2 | (rows == 5 ? RT__SPHERES : RT__BOXES);
+    const int kind = rt__kind_of(b->scene, entries->number), rows = rt__rows(kind);
+    rt_bvh_row *row = &b->bvh->rows[at];
+    for (int k = 0; k < 8; k++) {
+        float values[9];
+        for (int i = 0; i < 9; i++)
+            values[i] = NAN;
+        row->number[k] = k < group->count ? entries[k].number : -1;
+        if (k < group->count)
+            rt__set_values(b->scene, entries[k].number, values);
+        for (int i = 1; i < rows; i++)
+            row[i].value[k] = values[i - 1];
+    }
+    return at << 2 | kind;
 }
 
 /* In which order does a ray meet the boxes? Bit 0, 1, 2 of octant: it goes down along x,
@@ -3680,10 +4180,9 @@ static inline void rt__set_order(rt_bvh_node *node)
             begin[k] = x + y + z;
         }
         for (int k = 0; k < 8; k++) { /* how many come before it? */
-            int before = 0;
-            for (int i = 0; i < node->count; i++)
+            int before = k < node->count ? 0 : k;
+            for (int i = 0; k < node->count && i < node->count; i++)
                 before += begin[i] < begin[k] || (begin[i] == begin[k] && i < k);
-            before = k < node->count ? before : k;
             order |= (uint32_t)k << 3 * before;
         }
         for (int i = 0; i < 3; i++)
@@ -3710,7 +4209,7 @@ static inline void rt__set_node(const rt__builder *b, int at, int number, int ro
         node->count = k + 1;
         if (group->count <= 8) {
             node->inside[k] = rt__set_leaf(b, group, row);
-            row += rt__rows(b->scene, b->entries[group->first].number);
+            row += rt__rows(rt__kind_of(b->scene, b->entries[group->first].number));
             continue;
         }
         node->inside[k] = -number;
@@ -3723,7 +4222,7 @@ static inline void rt__set_node(const rt__builder *b, int at, int number, int ro
             rt__set_node(b, slice, number, row);
         }
         number += b->branches[slice].nodes;
-        row += b->branches[slice].rows;
+        row += (int)b->branches[slice].rows;
         slice += rt__most_nodes(group->count);
     }
     rt__set_order(node);
@@ -3762,27 +4261,39 @@ static int rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_ma
                             bool any); /* the last section */
 #endif
 
-/* The tree of a scene that is good, with so many threads. */
-static inline bool rt__build(const rt__builder *b, int count, int threads)
+/* The shapes, kind by kind, and of each kind a group. */
+static inline void rt__set_groups(const rt__builder *b, int count)
 {
     const rt_scene *scene = b->scene;
+    const int spheres = scene->sphere_count, boxes = scene->box_count;
+    const int custom = scene->custom_shape_count, others = spheres + boxes;
+    const int counts[RT__KINDS] = {spheres, boxes + custom, count - others - custom};
     rt__group *groups = b->branches[0].groups;
-    for (int i = 0; i < count; i++) {
-        b->entries[i].number = i;
-        b->entries[i].bounds = rt__shape_bounds(scene, i);
-    }
     memset(groups, 0, sizeof b->branches[0].groups);
-    const int counts[RT__KINDS] = {scene->sphere_count, scene->box_count};
+    for (int i = 0; i < count; i++) {
+        const int number = i < others            ? i
+                           : i < others + custom ? count - custom + i - others
+                                                 : i - custom;
+        b->entries[i].number = number;
+        b->entries[i].bounds = rt__shape_bounds(scene, number);
+    }
     for (int kind = 0, first = 0, k = 0; kind < RT__KINDS; first += counts[kind++])
         if (counts[kind] > 0)
             groups[k++] = rt__group_of(b->entries, first, counts[kind]);
+}
+
+/* The tree of a scene that is good, with so many threads. */
+static inline bool rt__build(const rt__builder *b, int count, int threads)
+{
+    rt__set_groups(b, count);
     (void)threads;
 #ifdef RT__TASKS
 #pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
 #pragma omp single
 #endif
     rt__build_branch(b, 0, 0);
-    if (!rt__make_room(b->bvh, b->branches[0].nodes, b->branches[0].rows))
+    const rt__branch *all = &b->branches[0];
+    if (all->rows > INT_MAX / 4 || !rt__make_room(b->bvh, all->nodes, (int)all->rows))
         return false;
 #ifdef RT__TASKS
 #pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
@@ -3804,7 +4315,9 @@ static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh
     const rt_status status = rt_check_scene(&shapes, NULL);
     if (status != RT_OK)
         return status;
-    const int count = scene->sphere_count + scene->box_count;
+    const int count = rt__primitive_count(scene);
+    if (count == INT_MAX)
+        return RT_NO_MEMORY;
     const size_t n = (size_t)count + 1, branches = (size_t)rt__most_nodes(count) + 1;
     rt__builder b;
     b.scene = scene;
@@ -3818,8 +4331,7 @@ static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh
         rt_free_bvh(bvh);
         return RT_NO_MEMORY;
     }
-    bvh->sphere_count = scene->sphere_count;
-    bvh->box_count = scene->box_count;
+    bvh->shape_count = count;
 #if RT__LANES > 1
     if (rt_lane_count(0) > 1)
         bvh->search = rt__search_alone;
@@ -4948,7 +5460,8 @@ static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
                         const rt_lens *lens)
 {
     const float most = 1e7f;
-    bool good = scene->sphere_count + scene->box_count <= RT__FEW &&
+    bool good = rt__primitive_count(scene) <= RT__FEW && scene->mesh_count == 0 &&
+                scene->custom_shape_count == 0 &&
                 rt__within(camera->position, -most, most) && lens->radius <= most;
     for (int i = 0; good && i < scene->sphere_count; i++) {
         const rt_sphere *s = &scene->spheres[i];
@@ -5047,7 +5560,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     if (status != RT_OK)
         return status;
     const int lanes = rt_lane_count(job.options.lanes);
-    const int shapes = scene->sphere_count + scene->box_count;
+    const int shapes = rt__primitive_count(scene);
     memset(&bvh, 0, sizeof bvh);
     indexed = *scene;
     if (scene->bvh) {
@@ -5422,8 +5935,9 @@ typedef struct rt__hits {
     rt__f kind; /* -1: nothing was hit; 0: a diffuse surface; 1: a mirror */
     rt__i left; /* of the next place */
     rt__f3 point, normal, albedo;
-    rt__f t;     /* part two wants to know these, too; */
-    rt__i shape; /* of a miss they are anything, but shape is a number that there is */
+    rt__f t;      /* part two wants to know these, too; */
+    rt__i shape;  /* of a miss they are anything, but shape is a number that there is */
+    rt__i inside; /* of a mesh or custom shape, see rt_hit */
 } rt__hits;
 
 /* The nearest shape so far, by key = -a t: the larger, the nearer. That of shape number
@@ -5712,6 +6226,9 @@ typedef struct rt__probe {
     int in_x, in_y, in_z;    /* where in a node, in floats, the planes are ... */
     int out_x, out_y, out_z; /* ... through which it comes and goes */
     float over_a, over_root; /* 1 / <u,u>, 1 / |u| */
+    rt__shear shear;         /* of chapter 16 ... */
+    float origin[3], shear_x, shear_y; /* ... and in floats, turned */
+    int row[3];                        /* where the coordinates that become x, y, z are */
 } rt__probe;
 
 RT__INLINE rt__probe rt__probe_of(const rt_ray *ray)
@@ -5730,6 +6247,14 @@ RT__INLINE rt__probe rt__probe_of(const rt_ray *ray)
     p.out_z = 56 - p.in_z;
     p.over_a = 1.0f / rt_dot(u, u);
     p.over_root = sqrtf(p.over_a);
+    p.shear = rt__shear_of(ray);
+    const rt_vec3 turned = rt_to_float(rt__turned(ray->origin, p.shear.axis));
+    rt__put_vec(p.origin, turned);
+    p.shear_x = (float)p.shear.x;
+    p.shear_y = (float)p.shear.y;
+    p.row[0] = 1 + (p.shear.axis + 1) % 3;
+    p.row[1] = 1 + (p.shear.axis + 2) % 3;
+    p.row[2] = 1 + p.shear.axis;
     return p;
 }
 
@@ -5798,32 +6323,82 @@ RT__INLINE unsigned rt__near_boxes(const rt_bvh_row *row, const rt__probe *p, fl
     return rt__bat_most(t_in * (1.0f - 4.0f * FLT_EPSILON), t_out);
 }
 
-/* rt__ask_leaf: the few that may be met in double, by the chapters' functions. */
+/* Corner number corner of eight triangles, sheared; and the largest coordinates so far. */
+RT__INLINE void rt__shear_corner(const rt_bvh_row *row, const rt__probe *p, int k,
+                                 int corner, rt__boxes *x, rt__boxes *y, rt__boxes *most,
+                                 rt__boxes *most_z)
+{
+    const rt_bvh_row *here = row + 3 * corner;
+    const rt__boxes zero = {0.0f};
+    const rt__boxes z = rt__eight(here[p->row[2]].value + k) - p->origin[2];
+    *x = rt__bfnma(z, zero + p->shear_x,
+                   rt__eight(here[p->row[0]].value + k) - p->origin[0]);
+    *y = rt__bfnma(z, zero + p->shear_y,
+                   rt__eight(here[p->row[1]].value + k) - p->origin[1]);
+    *most = rt__bmax(*most, rt__bmax(rt__babs(*x), rt__babs(*y)));
+    *most_z = rt__bmax(*most_z, rt__babs(z));
+}
+
+/* Which triangles? */
+RT__INLINE unsigned rt__near_triangles(const rt_bvh_row *row, const rt__probe *p, int k)
+{
+    const float e = 0.5f * FLT_EPSILON;
+    rt__boxes x[3], y[3], r = {0.0f}, z = r;
+    for (int i = 0; i < 3; i++)
+        rt__shear_corner(row, p, k, i, &x[i], &y[i], &r, &z);
+    const rt__boxes a = x[2] * y[1] - y[2] * x[1];
+    const rt__boxes b = x[0] * y[2] - y[0] * x[2];
+    const rt__boxes c = x[1] * y[0] - y[1] * x[0];
+    const rt__boxes error = (r + z) * (6.0f * e);
+    const rt__boxes bound =
+        r * (4.0f * error + (4.0f * e) * r) + 2.0f * error * error + 1e-37f;
+    const rt__boxes least = rt__bmin(rt__bmin(a, b), c),
+                    largest = rt__bmax(rt__bmax(a, b), c);
+    return rt__bat_most(-bound, least) | rt__bat_most(largest, bound);
+}
+
+/* The t of one of them, by the functions of the chapters. */
+RT__INLINE float rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, int kind,
+                                 int k, const rt__probe *p, float t_max)
+{
+    const rt_vec3 a = rt_vec(row[1].value[k], row[2].value[k], row[3].value[k]);
+    if (kind == RT__SPHERES) {
+        rt_sphere sphere;
+        sphere.center = a;
+        sphere.radius = row[4].value[k];
+        return (float)rt__meet_sphere(&sphere, &p->ray, t_max);
+    }
+    const rt_vec3 b = rt_vec(row[4].value[k], row[5].value[k], row[6].value[k]);
+    if (kind == RT__TRIANGLES) {
+        const rt_vec3 c = rt_vec(row[7].value[k], row[8].value[k], row[9].value[k]);
+        rt_dvec3 weights;
+        return (float)rt__meet_corners(&p->shear, a, b, c, t_max, &weights);
+    }
+    const int number = row->number[k];
+    if (number >= scene->sphere_count + scene->box_count)
+        return rt__meet_other(scene, number, &p->ray, t_max);
+    rt_box box;
+    box.min = a;
+    box.max = b;
+    return rt__meet_box(&box, &p->ray, t_max);
+}
+
+/* rt__ask_leaf: all in float, and the few that may be met once more in double. */
 RT__INLINE bool rt__ask_rows(const rt_scene *scene, int leaf, const rt__probe *p,
                              bool any, rt__best *best)
 {
     const rt_bvh_row *row = &scene->bvh->rows[leaf >> 2];
-    const bool spheres = (leaf & 3) == RT__SPHERES;
+    const int kind = leaf & 3;
     unsigned maybe = 0;
     for (int k = 0; k < 8; k += RT__STEP)
-        maybe |= (spheres ? rt__near_spheres(row, p, best->t, k)
-                          : rt__near_boxes(row, p, best->t, k))
+        maybe |= (kind == RT__TRIANGLES ? rt__near_triangles(row, p, k)
+                  : kind == RT__SPHERES ? rt__near_spheres(row, p, best->t, k)
+                                        : rt__near_boxes(row, p, best->t, k))
                  << k;
     for (; maybe != 0; maybe &= maybe - 1u) {
         const int k = rt__lowest(maybe);
         const float limit = any ? best->t : rt__beyond(best->t);
-        float t;
-        if (spheres) {
-            rt_sphere sphere;
-            sphere.center = rt_vec(row[1].value[k], row[2].value[k], row[3].value[k]);
-            sphere.radius = row[4].value[k];
-            t = (float)rt__meet_sphere(&sphere, &p->ray, limit);
-        } else {
-            rt_box box;
-            box.min = rt_vec(row[1].value[k], row[2].value[k], row[3].value[k]);
-            box.max = rt_vec(row[4].value[k], row[5].value[k], row[6].value[k]);
-            t = rt__meet_box(&box, &p->ray, limit);
-        }
+        const float t = rt__meet_column(scene, row, kind, k, p, limit);
         if (any && t > 0.0f)
             return true;
         rt__consider(best, row->number[k], t);
@@ -5908,19 +6483,22 @@ RT__NOINLINE bool rt__any_in_tree(const rt_scene *scene, const rt_ray *ray, floa
     return rt__search_rows(scene, ray, t_max, true) >= 0;
 }
 
-/* For who asks for one ray. Vectors raise exceptions that the chapters do not. */
+/* For who asks for one ray. Vectors raise exceptions that the chapters do not: traps off,
+ * and the flags put back. (The empty instructions keep the search in between.) */
 static int rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_max,
                             bool any)
 {
 #ifdef RT__X86
     const unsigned before = _mm_getcsr();
-    _mm_setcsr(before | 0x1f80u); /* no traps */
+    _mm_setcsr(before | 0x1f80u);
 #else
     fenv_t before;
     feholdexcept(&before);
 #endif
-    const int number = any ? (rt__any_in_tree(scene, ray, t_max) ? 0 : -1)
-                           : rt__nearest_in_tree(scene, ray, t_max);
+    __asm__ volatile("" : "+r"(scene) : : "memory");
+    int number = any ? (rt__any_in_tree(scene, ray, t_max) ? 0 : -1)
+                     : rt__nearest_in_tree(scene, ray, t_max);
+    __asm__ volatile("" : "+r"(number) : : "memory");
 #ifdef RT__X86
     _mm_setcsr(before);
 #else
@@ -5960,7 +6538,8 @@ RT__NOINLINE void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
         hits->kind[lane] = hit.material->mirror ? 1.0f : 0.0f;
         hits->left[lane] = RT__NOWHERE;
         hits->t[lane] = hit.t;
-        hits->shape[lane] = number;
+        hits->shape[lane] = hit.shape;
+        hits->inside[lane] = hit.inside;
         rt__set_lane(&hits->point, lane, hit.point);
         rt__set_lane(&hits->normal, lane, hit.normal);
         rt__set_lane(&hits->albedo, lane, hit.material->albedo);
@@ -6427,14 +7006,15 @@ RT__INLINE rt__f3 rt__emission(const rt__job *job, const rt__hits *hits, rt__m l
 
 static rt_hit rt__hit_of(const rt_scene *scene, const rt__hits *hits, int lane)
 {
-    const int number = hits->shape[lane], box = number - scene->sphere_count;
+    const int number = hits->shape[lane];
     rt_hit hit;
     hit.t = hits->t[lane];
     hit.point = rt__lane(&hits->point, lane);
     hit.normal = rt__lane(&hits->normal, lane);
-    hit.material =
-        box < 0 ? &scene->spheres[number].material : &scene->boxes[box].material;
+    hit.material = rt__material_of(scene, number);
     hit.shape = number;
+    rt__only_part_one(&hit);
+    hit.inside = hits->inside[lane] != 0;
     return hit;
 }
 
@@ -7179,6 +7759,7 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     p->hits.point = rt__vall(film->position);
     p->hits.normal = p->sum;
     p->hits.left = (rt__i)zero + RT__NOWHERE;
+    p->hits.inside = (rt__i)zero;
     if (job->options.lens.radius > 0.0f)
         rt__through_lens(job, p);
     rt__set_out(job, p, none);
@@ -7242,7 +7823,7 @@ static rt_status rt__run_packets(rt__job *job)
     rt__table table;
     memset(&table, 0, sizeof table);
     const rt_scene *scene = job->scene;
-    const int surfaces = scene->surfaces ? scene->sphere_count + scene->box_count : 0;
+    const int surfaces = scene->surfaces ? rt__shape_count(scene) : 0;
     table.few = rt__are_few(scene, job->camera, &job->options.lens);
     if (table.few)
         rt__set_table(&table, scene);
