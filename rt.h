@@ -1333,9 +1333,10 @@ enum {
 typedef struct rt_bvh {
     rt_bvh_node *nodes; /* nodes[0] is around everything */
     rt_bvh_row *rows;
-    int node_count, row_count, shape_count; /* shapes, every triangle being one */
-    void *memory;                           /* in which nodes and rows lie */
-    rt__search_function *search;            /* NULL, or that of the last section */
+    int node_count, row_count;
+    int sphere_count, box_count, triangle_count, custom_shape_count;
+    void *memory;                /* in which nodes and rows lie */
+    rt__search_function *search; /* NULL, or that of the last section */
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
@@ -2598,14 +2599,20 @@ static inline bool rt_hit_custom_shape(const rt_custom_shape *shape, const rt_ra
  * rt_intersect, ask every triangle; they count spheres, boxes, the triangles of the first
  * mesh, of the second, ..., custom shapes. */
 
-/* How many numbers there are: so many shapes does the tree ask, or INT_MAX if that does
- * not fit an int. */
+/* How many triangles all meshes have, and how many of those numbers there are: what does
+ * not fit an int counts as INT_MAX. */
+static inline int rt__triangle_count(const rt_scene *scene)
+{
+    int64_t count = 0;
+    for (int i = 0; scene->meshes && i < scene->mesh_count && count < INT_MAX; i++)
+        count += scene->meshes[i].triangle_count;
+    return count < INT_MAX ? (int)count : INT_MAX;
+}
+
 static inline int rt__primitive_count(const rt_scene *scene)
 {
-    int64_t count = (int64_t)scene->sphere_count + scene->box_count;
-    for (int i = 0; i < scene->mesh_count && count < INT_MAX; i++)
-        count += scene->meshes[i].triangle_count;
-    count += scene->custom_shape_count;
+    const int64_t count = (int64_t)scene->sphere_count + scene->box_count +
+                          rt__triangle_count(scene) + scene->custom_shape_count;
     return count < INT_MAX ? (int)count : INT_MAX;
 }
 
@@ -3674,8 +3681,11 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
     *i = 0;
     if (!rt__within(scene->background, 0.0f, RT__LARGEST))
         return RT_BAD_BACKGROUND;
-    if (scene->bvh &&
-        (!scene->bvh->nodes || scene->bvh->shape_count != rt__primitive_count(scene)))
+    const rt_bvh *bvh = scene->bvh;
+    if (bvh && (!bvh->nodes || bvh->sphere_count != scene->sphere_count ||
+                bvh->box_count != scene->box_count ||
+                bvh->triangle_count != rt__triangle_count(scene) ||
+                bvh->custom_shape_count != scene->custom_shape_count))
         return RT_BAD_BVH;
     return RT_OK;
 }
@@ -4308,16 +4318,14 @@ static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh
     if (!scene || !bvh)
         return RT_BAD_POINTER;
     memset(bvh, 0, sizeof *bvh);
-    if (scene->sphere_count > 0 && scene->box_count > INT_MAX - scene->sphere_count)
+    const int count = rt__primitive_count(scene);
+    if (count == INT_MAX)
         return RT_NO_MEMORY; /* their numbers would not be ints */
     rt_scene shapes = *scene;
     shapes.bvh = NULL;
     const rt_status status = rt_check_scene(&shapes, NULL);
     if (status != RT_OK)
         return status;
-    const int count = rt__primitive_count(scene);
-    if (count == INT_MAX)
-        return RT_NO_MEMORY;
     const size_t n = (size_t)count + 1, branches = (size_t)rt__most_nodes(count) + 1;
     rt__builder b;
     b.scene = scene;
@@ -4331,7 +4339,10 @@ static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh
         rt_free_bvh(bvh);
         return RT_NO_MEMORY;
     }
-    bvh->shape_count = count;
+    bvh->sphere_count = scene->sphere_count;
+    bvh->box_count = scene->box_count;
+    bvh->triangle_count = rt__triangle_count(scene);
+    bvh->custom_shape_count = scene->custom_shape_count;
 #if RT__LANES > 1
     if (rt_lane_count(0) > 1)
         bvh->search = rt__search_alone;

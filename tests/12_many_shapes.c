@@ -496,7 +496,8 @@ static tree_facts check_tree(const many *m)
     assert_int_equal(facts.shapes, count);
     assert_int_equal(facts.nodes, m->bvh.node_count);
     assert_true(facts.nodes == 1 || facts.nodes <= (count - 2) / 7);
-    assert_int_equal(m->bvh.shape_count, count);
+    assert_int_equal(m->bvh.sphere_count, m->scene.sphere_count);
+    assert_int_equal(m->bvh.box_count, m->scene.box_count);
     /* each node on the way down leaves at most seven boxes to look at later */
     assert_true(7 * facts.depth + 1 <= RT__WAITING);
     free(facts.seen);
