@@ -285,6 +285,7 @@ static inline void room_prepare(int which)
     if (room_meshes[which].position_count != count) {
         free(placed[which]);
         placed[which] = malloc((size_t)count * sizeof(rt_vec3));
+        room_meshes[which].position_count = 0;
     }
     if (!placed[which])
         return;
