@@ -11,26 +11,13 @@
  *
  * LANES: 1 is the plain C of the chapters, 0 as many as the machine offers. Times are those of
  * the clock on the wall. */
-#define _POSIX_C_SOURCE 199309L /* clock_gettime */
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
+#define _POSIX_C_SOURCE 200112L /* clock_gettime */
 #define RT_IMPLEMENTATION
-#include "../../demos/scene.h"
+#include "bench.h"
 
 enum { W = 640, H = 480 };
 
 static rt_vec3 pixels[W * H];
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static rt_pixel_function *by_hand; /* in place of rt_render, unless NULL */
 
@@ -109,37 +96,6 @@ static void picture(int threads)
 }
 
 /* ---- time against the number of shapes ----------------------------------------------- */
-
-/* count spheres at random places in the room, which together always fill a twentieth of it: so
- * a ray meets about as much whatever the count, and what grows is the search. Every tenth is a
- * mirror. The first five are the walls. */
-static rt_sphere *many_spheres(int count)
-{
-    rt_sphere *spheres = malloc((size_t)(count + 5) * sizeof *spheres);
-    const rt_vec3 low = {-45, -18, -55}, size = {90, 54, 95};
-    const double volume = (double)size.x * (double)size.y * (double)size.z;
-    const float radius = (float)cbrt(0.05 * volume / (4.18879 * count));
-    if (!spheres) {
-        fprintf(stderr, "bench: out of memory\n");
-        exit(1);
-    }
-    memcpy(spheres, room_spheres + 1, 5 * sizeof *spheres);
-    rt_rng rng = rt_rng_start((uint32_t)count, 0, 0);
-    for (int i = 5; i < count + 5;) {
-        const float x = rt_random(&rng), y = rt_random(&rng), z = rt_random(&rng);
-        const rt_vec3 center = rt_add(low, rt_mul(size, rt_vec(x, y, z)));
-        const rt_vec3 to_light = rt_sub(room_dim_light.position, center);
-        if (rt_length(to_light) < radius + 1.0f)
-            continue; /* a lamp within a sphere lights nothing else */
-        spheres[i].center = center;
-        spheres[i].radius = radius;
-        spheres[i].material.mirror = i % 10 == 0;
-        spheres[i].material.albedo =
-            rt_vec(0.5f + 0.4f * x, 0.5f + 0.4f * y, 0.5f + 0.4f * z);
-        i++;
-    }
-    return spheres;
-}
 
 /* rt_radiance without a tree: every ray asks every shape. */
 static rt_vec3 ask_every_shape(const void *scene, float x, float y, rt_rng *rng)

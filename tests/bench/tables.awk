@@ -9,9 +9,9 @@ function show(value) { # three digits that say something
 }
 function times(a, b) { return a == "" || !b ? "-" : show(a / b) "\303\227" } # UTF-8, a cross
 
-function line(a, b, c, d, e, f,    i) {
+function line(a, b, c, d, e, f, g,    i) {
     split("", cell)
-    cell[1] = a; cell[2] = b; cell[3] = c; cell[4] = d; cell[5] = e; cell[6] = f
+    cell[1] = a; cell[2] = b; cell[3] = c; cell[4] = d; cell[5] = e; cell[6] = f; cell[7] = g
     lines++
     for (i = 1; i <= columns; i++) {
         text[lines, i] = cell[i]
@@ -29,12 +29,12 @@ function pad(s, n, left) {
 function print_table(    i, j, out) {
     for (i = 1; i <= lines; i++) {
         out = "|"
-        for (j = 1; j <= columns; j++) out = out " " pad(text[i, j], width[j], j == 1) " |"
+        for (j = 1; j <= columns; j++) out = out " " pad(text[i, j], width[j], j <= 1 + second) " |"
         print out
         if (i == 1) {
             out = "|"
             for (j = 1; j <= columns; j++)
-                out = out (j == 1 ? " " pad("", width[j]) " " : " " pad("", width[j]) ":") "|"
+                out = out " " pad("", width[j]) (j <= 1 + second ? " " : ":") "|"
             gsub(/ /, "-", out)
             gsub(/\|-/, "| ", out)
             gsub(/-\|/, " |", out)
@@ -67,6 +67,11 @@ $1 == "mitsuba" { keep("mitsuba", $2, $3 + 0, 1) }
 $1 == "part2" { keep("part2 " $3, $2, $4 + 0, 1) }
 $1 == "growth" { keep("ns " $2, $3, $4 + 0, 0) }
 $1 == "growth" && $2 != "linear" { keep("built", $3, $6 + 0, 0) }
+$1 == "rays" {
+    who = $3 SUBSEP $5
+    for (i = 6; i <= 10; i++) keep("rays " i, who, $i + 0, i <= 8)
+    shapes[who] = $4; bytes[who] = $11; differ[who] = $12
+}
 $1 == "denoise" { at[++pictures] = $2; noisy[$2] = $3; clean[$2] = $4; one[$2] = $5; two[$2] = $6 }
 $1 == "oidn" { theirs[$2] = $3; took[$2] = $4 }
 $1 == "oidn-split" { split_up[$2] = $3 }
@@ -139,6 +144,35 @@ END {
             line(n, i > count["ns linear"] ? "" : show(best["ns linear", n]) " ns",
                 show(best["ns scalar", n]) " ns", show(time) " ns",
                 times(time, best["ns packets", 10]), show(best["built", n]) " ms")
+        }
+    }
+    if (topic == "rays" || topic == "trees") {
+        second = 1 # this column is words, too
+        for (i = 1; i <= count["rays 6"]; i++) {
+            who = order["rays 6", i]
+            split(who, part, SUBSEP)
+            against = part[1] SUBSEP "Embree, robust"
+            ratios = ""
+            for (k = 6; k <= 8; k++)
+                ratios = ratios " " times(best["rays " k, who], best["rays " k, against])
+            scene = part[1] == last ? "" : part[1]
+            last = part[1]
+            if (topic == "rays") {
+                columns = ratios ~ /-/ ? 5 : 6
+                if (i == 1)
+                    line("one core, Mrays/s", "tree", "from the eye", "to the light",
+                        "diffuse", "against Embree, robust")
+                line(scene, part[2], show(best["rays 6", who]), show(best["rays 7", who]),
+                    show(best["rays 8", who]), substr(ratios, 2))
+            } else {
+                columns = 7
+                if (i == 1)
+                    line("scene", "tree", "shapes", "built by one thread", "by all",
+                        "bytes a shape", "rays that differ")
+                line(scene, part[2], scene ? shapes[who] : "",
+                    show(1e3 * best["rays 9", who]) " ms",
+                    show(1e3 * best["rays 10", who]) " ms", show(bytes[who]), differ[who])
+            }
         }
     }
     if (topic == "plot-growth") {
