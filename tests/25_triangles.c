@@ -610,34 +610,13 @@ static rt_mesh make_tetrahedron(float flat)
     return finished_mesh(m);
 }
 
-/* A pot: a profile turned about the axis y, thick walls, open above. */
+/* A pot with thick walls, open above. */
 static rt_mesh make_pot(void)
 {
-    enum { COLUMNS = 24, RINGS = 9 };
-    const double profile[RINGS][2] = {{0, -1},    {0.6, -1},   {1, -0.4},
-                                      {0.9, 0.4}, {0.7, 0.7},  {0.6, 0.65},
-                                      {0.8, 0.3}, {0.8, -0.4}, {0, -0.8}};
-    growing_mesh m = new_mesh(2 + (RINGS - 2) * COLUMNS, 2 * (RINGS - 2) * COLUMNS);
-    const int bottom = add_corner(&m, 0, profile[0][1], 0);
-    const int top = add_corner(&m, 0, profile[RINGS - 1][1], 0);
-    for (int r = 1; r < RINGS - 1; r++)
-        for (int c = 0; c < COLUMNS; c++) {
-            const double turn = 2 * 3.14159265358979 * c / COLUMNS;
-            add_corner(&m, profile[r][0] * cos(turn), profile[r][1],
-                       -profile[r][0] * sin(turn));
-        }
-    for (int c = 0; c < COLUMNS; c++) {
-        const int next = (c + 1) % COLUMNS;
-        add_triangle(&m, bottom, 2 + next, 2 + c);
-        for (int r = 0; r < RINGS - 3; r++) {
-            const int low = 2 + r * COLUMNS, high = low + COLUMNS;
-            add_triangle(&m, low + c, low + next, high + next);
-            add_triangle(&m, low + c, high + next, high + c);
-        }
-        add_triangle(&m, 2 + (RINGS - 3) * COLUMNS + c, 2 + (RINGS - 3) * COLUMNS + next,
-                     top);
-    }
-    return finished_mesh(m);
+    static const double profile[9][2] = {{0, -1},    {0.6, -1},   {1, -0.4},
+                                         {0.9, 0.4}, {0.7, 0.7},  {0.6, 0.65},
+                                         {0.8, 0.3}, {0.8, -0.4}, {0, -0.8}};
+    return make_lathe(profile, 9, 24);
 }
 
 /* The closed meshes of the tests that follow, and a point in each of them. */
