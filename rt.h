@@ -2336,6 +2336,16 @@ static inline rt_dvec3 rt__across(const rt_mesh *mesh, int triangle)
                      rt_dsub(rt_to_double(rt_corner(mesh, triangle, 2)), a));
 }
 
+/* The mean of the corners with these weights, whose sum must be 1. */
+static inline rt_vec3 rt__blend(const rt_mesh *mesh, int triangle, rt_dvec3 weights)
+{
+    const rt_dvec3 a = rt_to_double(rt_corner(mesh, triangle, 0));
+    const rt_dvec3 b = rt_to_double(rt_corner(mesh, triangle, 1));
+    const rt_dvec3 c = rt_to_double(rt_corner(mesh, triangle, 2));
+    const rt_dvec3 ab = rt_dmad(rt_dscale(a, weights.x), weights.y, b);
+    return rt_to_float(rt_dmad(ab, weights.z, c));
+}
+
 #ifndef rt_hit_triangle
 /* The world as the ray sees it: C is the origin, and the ray is the axis z. The axis
  * along which u is longest becomes z; then a shear, which moves every point sideways in
@@ -2450,12 +2460,9 @@ static inline bool rt_hit_triangle(const rt_mesh *mesh, int triangle, const rt_r
     if (!(t > 0.0))
         return false;
     w = rt_dscale(w, 1.0 / (w.x + w.y + w.z));
-    const rt_dvec3 a = rt_dscale(rt_to_double(rt_corner(mesh, triangle, 0)), w.x);
-    const rt_dvec3 ab = rt_dmad(a, w.y, rt_to_double(rt_corner(mesh, triangle, 1)));
     const rt_dvec3 n = rt_dnormalize(rt__across(mesh, triangle));
     hit->t = (float)t;
-    hit->point =
-        rt_to_float(rt_dmad(ab, w.z, rt_to_double(rt_corner(mesh, triangle, 2))));
+    hit->point = rt__blend(mesh, triangle, w);
     hit->inside = rt_ddot(n, rt_to_double(ray->direction)) > 0.0;
     hit->normal = rt_to_float(rt_dscale(n, hit->inside ? -1.0 : 1.0));
     hit->material = &mesh->material;
@@ -2600,6 +2607,34 @@ static inline float rt__meet_other(const rt_scene *scene, int number, const rt_r
     return rt__meet_one(scene, rt__other_of(scene, number), ray, t_max);
 }
 
+/* P drawn in from the edges of its triangle, by 4 steps of rt_leave, or less in a tiny
+ * triangle. In a corner between two walls rt_leave steps along the normal of one of them.
+ * If they meet at less than a right angle, that leads towards the other, and close to the
+ * edge through it: the path would be outside of a closed mesh. From 4 steps away that
+ * does not happen down to 14 degrees, whose cotangent is 4. */
+static inline void rt__draw_in(const rt_mesh *mesh, rt_hit *hit)
+{
+    const rt_dvec3 a = rt_to_double(rt_corner(mesh, hit->part, 0));
+    const rt_dvec3 ab = rt_dsub(rt_to_double(rt_corner(mesh, hit->part, 1)), a);
+    const rt_dvec3 ac = rt_dsub(rt_to_double(rt_corner(mesh, hit->part, 2)), a);
+    const rt_dvec3 bc = rt_dsub(ac, ab), n = rt_dcross(ab, ac);
+    double longest = rt_ddot(ab, ab);
+    longest = rt_ddot(ac, ac) > longest ? rt_ddot(ac, ac) : longest;
+    longest = rt_ddot(bc, bc) > longest ? rt_ddot(bc, bc) : longest;
+    const double low = sqrt(rt_ddot(n, n) / longest); /* the least of its three heights */
+    const rt_vec3 step =
+        rt_sub(rt_leave(hit->point, hit->normal, hit->normal), hit->point);
+    double least = 4.0 * (double)rt_length(step) / low;
+    least = least < 0.1 ? least : 0.1;
+    rt_dvec3 w =
+        rt_dvec(1.0 - (double)hit->u - (double)hit->v, (double)hit->u, (double)hit->v);
+    if (w.x >= least && w.y >= least && w.z >= least)
+        return;
+    w = rt_dvec(w.x > least ? w.x : least, w.y > least ? w.y : least,
+                w.z > least ? w.z : least);
+    hit->point = rt__blend(mesh, hit->part, rt_dscale(w, 1.0 / (w.x + w.y + w.z)));
+}
+
 /* The number of the nearest of them, of the first of several at the same t; or if any
  * will do, of any; or -1. */
 static inline int rt__nearest_other(const rt_scene *scene, const rt_ray *ray, float t_max,
@@ -2636,14 +2671,16 @@ static inline bool rt__hit_other(const rt_scene *scene, int number, const rt_ray
         return true;
     }
     const rt_mesh *mesh = &scene->meshes[p.mesh];
-#ifdef rt_hit_triangle /* yours may set no more than the rt_hit_... of part one */
-    rt__only_part_one(hit);
+#ifdef rt_hit_triangle /* yours need not set all */
+    hit->u = hit->v = -1.0f;
     hit->inside = rt_ddot(rt__across(mesh, p.part), rt_to_double(ray->direction)) > 0.0;
 #endif
     if (!rt_hit_triangle(mesh, p.part, ray, FLT_MAX, hit))
         return false;
     hit->shape = before + p.mesh;
     hit->part = p.part;
+    if (hit->u >= 0.0f && hit->v >= 0.0f)
+        rt__draw_in(mesh, hit);
     return true;
 }
 
