@@ -21,7 +21,8 @@ static inline bool my_hit_triangle(const rt_mesh *mesh, int triangle, const rt_r
     const double w_c = rt_ddot(u, rt_dcross(b, a)), sum = w_a + w_b + w_c;
     if (!(w_a > 0 && w_b > 0 && w_c > 0) && !(w_a < 0 && w_b < 0 && w_c < 0))
         return false;
-    const rt_dvec3 p = rt_dmad(rt_dmad(rt_dscale(a, w_a / sum), w_b / sum, b), w_c / sum, c);
+    const rt_dvec3 p =
+        rt_dmad(rt_dmad(rt_dscale(a, w_a / sum), w_b / sum, b), w_c / sum, c);
     const double t = rt_ddot(p, u) / rt_ddot(u, u);
     if (!(t > 0 && t < (double)t_max))
         return false;

@@ -138,11 +138,12 @@ int main(void)
                       roundf(4096 * p[i].z) / 4096);
     int with = 0, without = 0;
     for (int k = 0; k < 10; k++) {
-        const rt_vec3 eye = {(float)k / 32, (float)(k * 7 % 10) / 32, (float)(k * 3 % 10) / 64};
+        const rt_vec3 eye = {(float)k / 32, (float)(k * 7 % 10) / 32,
+                             (float)(k * 3 % 10) / 64};
         with += leaks(&m, eye, true, contracted);
         without += leaks(&m, eye, true, ours);
     }
-    printf("middle-rays: %d\nmiddle-contracted: %d\nmiddle-ours: %d\n", 10 * m.triangle_count,
-           with, without);
+    printf("middle-rays: %d\nmiddle-contracted: %d\nmiddle-ours: %d\n",
+           10 * m.triangle_count, with, without);
     free_mesh(&m);
 }

@@ -9,7 +9,10 @@ enum { CELLS = 16, RAYS = 8 * CELLS }; /* along one side */
 
 static rt_vec3 positions[(CELLS + 1) * (CELLS + 1)];
 static int indices[6 * CELLS * CELLS];
-static rt_mesh wall = {positions, indices, (CELLS + 1) * (CELLS + 1), 2 * CELLS * CELLS,
+static rt_mesh wall = {positions,
+                       indices,
+                       (CELLS + 1) * (CELLS + 1),
+                       2 * CELLS *CELLS,
                        {{0.8f, 0.8f, 0.8f}, false}};
 
 /* Where the ray of this column or row meets the plane at distance 1: -1/2 to 1/2. */
@@ -25,8 +28,8 @@ static void make_wall(void)
     for (int y = 0; y <= CELLS; y++)
         for (int x = 0; x <= CELLS; x++) {
             const uint32_t any = rt_hash((uint32_t)(x + 100 * y));
-            const float far =
-                x < CELLS / 2 ? 8 + (float)(any >> 10) / 16777216 : 8 + (float)(any >> 28) / 64;
+            const float far = x < CELLS / 2 ? 8 + (float)(any >> 10) / 16777216
+                                            : 8 + (float)(any >> 28) / 64;
             positions[y * (CELLS + 1) + x] =
                 rt_scale(rt_vec(film(8 * x), film(8 * y), -1), far);
         }
