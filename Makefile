@@ -30,7 +30,7 @@ CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 export OMP_WAIT_POLICY ?= passive
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09 demo10 \
-           demo11 demo12 demo13 demo14 demo15
+           demo11 demo12 demo13 demo14 demo15 demo16 demo17
 HEADERS := rt.h $(wildcard demos/*.h)
 PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
@@ -38,7 +38,7 @@ TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 .PHONY: help deps demos test golden check bench bench-rays docs web deps-web starters try grade install clean $(DEMOS)
 
 help: ## this list
-	@echo '  make demo01 ... demo15  build and run a chapter; ARGS="1280 960 --samples 64"'
+	@echo '  make demo01 ... demo17  build and run a chapter; ARGS="1280 960 --samples 64"'
 	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 

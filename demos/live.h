@@ -12,9 +12,9 @@
 static const rt_scene *live_scene(int stage)
 {
     static const rt_scene *const scenes[] = {
-        NULL,         &scene_sphere, &scene_walls,    &scene_cube,  &scene_cube,
-        &scene_cube,  &scene_mirror, &scene_indirect, &scene_glass, &scene_lamps,
-        &scene_gloss, &scene_sky,    &scene_patterns,
+        NULL,         &scene_sphere, &scene_walls,    &scene_cube,      &scene_cube,
+        &scene_cube,  &scene_mirror, &scene_indirect, &scene_glass,     &scene_lamps,
+        &scene_gloss, &scene_sky,    &scene_patterns, &scene_triangles, &scene_own_shape,
     };
     return scenes[stage];
 }
@@ -26,7 +26,9 @@ enum {
     STAGE_LAMPS,
     STAGE_GLOSS,
     STAGE_SKY,
-    STAGE_PATTERNS
+    STAGE_PATTERNS,
+    STAGE_TRIANGLES,
+    STAGE_OWN_SHAPE
 };
 
 /* What the stage wants besides what the reader does. */
@@ -41,6 +43,8 @@ static rt_options live_options(int stage, const rt_options *options)
 /* -------------------------------------------------------------------------------------
  * The stages
  * ------------------------------------------------------------------------------------- */
+
+static void live_prepare(int stage); /* below: where things are */
 
 typedef struct live_context {
     int stage;
@@ -78,6 +82,7 @@ static rt_status live_render(int stage, const demo_view *view, const rt_options 
 {
     const live_context context = {stage, view};
     const rt_options o = live_options(stage, options);
+    live_prepare(stage);
     if (stage >= STAGE_INDIRECT)
         return rt_render(live_scene(stage), &room_camera, &o, image);
     return rt_render_pixels(live_pixel, &context, options, image);
@@ -99,6 +104,7 @@ static rt_status live_draft(int stage, const demo_view *view, const rt_options *
         return live_render(stage, view, options, image);
     rt_options direct = live_options(stage, options);
     direct.bounces = stage >= STAGE_GLASS ? 3 : 0; /* through glass, and what is behind */
+    live_prepare(stage);
     const rt_status status = rt_render(live_scene(stage), &room_camera, &direct, image);
     demo_view mirrors = *view;
     mirrors.bounces = view->bounces > 0 ? view->bounces : 5;
@@ -199,16 +205,17 @@ static void live_zoom(float factor)
 }
 
 /* -------------------------------------------------------------------------------------
- * Things: the ball, the mirror, the cube, the lamp, the ball of glass
+ * Things: the ball, the mirror, the cube, the lamp, the ball of glass, the mesh, the pedestal
  * ------------------------------------------------------------------------------------- */
 
-enum { BALL = 1, MIRROR, CUBE, LAMP, GLASS, THINGS };
+enum { BALL = 1, MIRROR, CUBE, LAMP, GLASS, MESH, PEDESTAL, THINGS };
 
 static const char *live_name(int thing)
 {
-    static const char *const names[THINGS] = {"nothing",  "the ball", "the mirror",
-                                              "the cube", "the lamp", "the glass ball"};
-    return names[thing];
+    static const char *const names[THINGS] = {"nothing",  "the ball",    "the mirror",
+                                              "the cube", "the lamp",    "the glass ball",
+                                              "",         "the pedestal"};
+    return thing == MESH ? room_model.name : names[thing];
 }
 
 static rt_vec3 live_middle(int thing)
@@ -218,6 +225,8 @@ static rt_vec3 live_middle(int thing)
     case MIRROR: return room_spheres[ROOM_MIRROR].center;
     case GLASS: return room_spheres[ROOM_GLASS].center;
     case CUBE: return rt_scale(rt_add(room_cube.min, room_cube.max), 0.5f);
+    case MESH: return room_foot;
+    case PEDESTAL: return room_cylinder.base;
     default: return room_light.position;
     }
 }
@@ -230,6 +239,8 @@ static float live_reach(int thing)
     case MIRROR: return room_spheres[ROOM_MIRROR].radius;
     case GLASS: return room_spheres[ROOM_GLASS].radius;
     case CUBE: return 0.5f * (room_cube.max.x - room_cube.min.x);
+    case MESH: return 13;
+    case PEDESTAL: return room_cylinder.radius;
     default: return room_lamp.radius;
     }
 }
@@ -247,6 +258,10 @@ static void live_place(int thing, rt_vec3 middle)
         room_cube.min = rt_add(room_cube.min, by);
         room_cube.max = rt_add(room_cube.max, by);
     }
+    if (thing == MESH)
+        room_foot = middle;
+    if (thing == PEDESTAL)
+        room_cylinder.base = middle;
     if (thing == LAMP)
         room_light.position = room_dim_light.position = room_lamp.center = middle;
 }
@@ -259,18 +274,22 @@ static int live_pick(int stage, const demo_view *view, float x, float y)
     const float t = rt_dot(to_lamp, ray.direction); /* where the ray comes by the lamp */
     const float beside = rt_length(rt_sub(to_lamp, rt_scale(ray.direction, t)));
     rt_hit hit;
-    const bool found = rt_intersect(live_scene(stage), &ray, &hit);
+    rt_scene scene = *live_scene(stage);
+    scene.bvh = NULL; /* where it is one, it may yet be made anew */
+    const bool found = rt_intersect(&scene, &ray, &hit);
     const float size = stage >= STAGE_LAMPS ? room_lamp.radius : 2.0f;
     if (stage > 1 && stage != STAGE_SKY && t > 0.0f && (!found || hit.t > t) &&
         beside < size)
         return LAMP;
     if (!found)
         return 0;
-    return hit.material == &room_spheres[0].material             ? BALL
-           : hit.material == &room_spheres[ROOM_MIRROR].material ? MIRROR
-           : hit.material == &room_spheres[ROOM_GLASS].material  ? GLASS
-           : hit.material == &room_cube.material                 ? CUBE
-                                                                 : 0;
+    return hit.material == &room_spheres[0].material                           ? BALL
+           : hit.material == &room_spheres[ROOM_MIRROR].material               ? MIRROR
+           : hit.material == &room_spheres[ROOM_GLASS].material                ? GLASS
+           : hit.material == &room_cube.material                               ? CUBE
+           : hit.material == &room_pedestal.material                           ? PEDESTAL
+           : scene.mesh_count > 0 && hit.material == &scene.meshes[0].material ? MESH
+                                                                               : 0;
 }
 
 static float live_clamp(float x, float low, float high)
@@ -293,8 +312,12 @@ static void live_drag(int thing, const demo_view *view, float right_pixels,
                                    rt_scale(up, size * up_pixels)));
     const float reach = live_reach(thing);
     middle.x = live_clamp(middle.x, -49 + reach, 49 - reach);
-    middle.y = live_clamp(middle.y, -20.8f + reach, 39 - reach);
+    /* of mesh and pedestal it is the middle of the foot */
+    const float below = thing >= MESH ? 0.4f : reach;
+    middle.y = live_clamp(middle.y, -20.8f + below, 39 - reach);
     middle.z = live_clamp(middle.z, -59 + reach, 90 - reach);
+    if (thing == PEDESTAL) /* with what stands on it */
+        live_place(MESH, rt_add(room_foot, rt_sub(middle, room_cylinder.base)));
     live_place(thing, middle);
 }
 
@@ -303,26 +326,28 @@ typedef struct live_number {
     const char *name;
     int first, last;
     float low, high, factor; /* for one notch of the wheel */
-    float *places[3];
+    float *places[4];
 } live_number;
 
 static const live_number live_numbers[THINGS] = {
     [BALL] = {"shininess",
               STAGE_GLOSS,
-              STAGE_PATTERNS,
+              STAGE_OWN_SHAPE,
               1,
               100000,
               1.4f,
               {&gloss_surfaces[ROOM_BALL].shininess,
-               &pattern_surfaces[ROOM_BALL].shininess}},
+               &pattern_surfaces[ROOM_BALL].shininess,
+               &mesh_surfaces[ROOM_BALL].shininess}},
     [MIRROR] = {"shininess",
                 STAGE_GLOSS,
-                STAGE_PATTERNS,
+                STAGE_OWN_SHAPE,
                 1,
                 100000,
                 1.4f,
                 {&gloss_surfaces[ROOM_MIRROR].shininess,
-                 &pattern_surfaces[ROOM_MIRROR].shininess}},
+                 &pattern_surfaces[ROOM_MIRROR].shininess,
+                 &mesh_surfaces[ROOM_MIRROR].shininess}},
     [CUBE] = {"refractive index",
               STAGE_GLASS,
               STAGE_SKY,
@@ -330,21 +355,35 @@ static const live_number live_numbers[THINGS] = {
               2.5f,
               1.02f,
               {&glass_surfaces[ROOM_CUBE].eta, &gloss_surfaces[ROOM_CUBE].eta}},
-    [LAMP] = {"radius", STAGE_LAMPS, STAGE_PATTERNS, 0.1f, 9, 1.1f, {&room_lamp.radius}},
+    [LAMP] = {"radius", STAGE_LAMPS, STAGE_OWN_SHAPE, 0.1f, 9, 1.1f, {&room_lamp.radius}},
     [GLASS] = {"refractive index",
                STAGE_GLASS,
-               STAGE_PATTERNS,
+               STAGE_OWN_SHAPE,
                1,
                2.5f,
                1.02f,
                {&glass_surfaces[ROOM_GLASS].eta, &gloss_surfaces[ROOM_GLASS].eta,
-                &pattern_surfaces[ROOM_GLASS].eta}},
+                &pattern_surfaces[ROOM_GLASS].eta, &mesh_surfaces[ROOM_GLASS].eta}},
+    [MESH] = {"shininess",
+              STAGE_TRIANGLES,
+              STAGE_OWN_SHAPE,
+              1,
+              100000,
+              1.4f,
+              {&mesh_surfaces[ROOM_MESH].shininess}},
+    [PEDESTAL] = {"height",
+                  STAGE_OWN_SHAPE,
+                  STAGE_OWN_SHAPE,
+                  1,
+                  30,
+                  1.1f,
+                  {&room_cylinder.height}},
 };
 
 static void live_set_number(int thing, float value)
 {
     const live_number *n = &live_numbers[thing];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         if (n->places[i])
             *n->places[i] = live_clamp(value, n->low, n->high);
 }
@@ -380,18 +419,23 @@ static void live_say(int stage, int thing, demo_text *out)
 /* All that moves. */
 typedef struct live_state {
     rt_camera camera;
-    rt_vec3 pivot, ball, mirror, lamp, glass;
+    rt_vec3 pivot;
+    rt_vec3 places[THINGS]; /* of the middles */
     rt_box cube;
     float numbers[THINGS];
 } live_state;
 
 static size_t live_save(void *to)
 {
-    live_state now = {
-        room_camera,       live_pivot,         live_middle(BALL), live_middle(MIRROR),
-        live_middle(LAMP), live_middle(GLASS), room_cube,         {0}};
-    for (int thing = BALL; thing < THINGS; thing++)
+    live_state now;
+    memset(&now, 0, sizeof now); /* the gaps, too */
+    now.camera = room_camera;
+    now.pivot = live_pivot;
+    now.cube = room_cube;
+    for (int thing = BALL; thing < THINGS; thing++) {
+        now.places[thing] = live_middle(thing);
         now.numbers[thing] = *live_numbers[thing].places[0];
+    }
     memcpy(to, &now, sizeof now);
     return sizeof now;
 }
@@ -402,13 +446,28 @@ static void live_load(const void *from)
     memcpy(&then, from, sizeof then);
     room_camera = then.camera;
     live_pivot = then.pivot;
-    room_cube = then.cube; /* not by its middle, which is rounded */
-    live_place(BALL, then.ball);
-    live_place(MIRROR, then.mirror);
-    live_place(LAMP, then.lamp);
-    live_place(GLASS, then.glass);
-    for (int thing = BALL; thing < THINGS; thing++)
+    for (int thing = BALL; thing < THINGS; thing++) {
+        live_place(thing, then.places[thing]);
         live_set_number(thing, then.numbers[thing]);
+    }
+    room_cube = then.cube; /* not by its middle, which is rounded */
+}
+
+/* The two scenes with a tree: it is made anew if anything has moved since. */
+static void live_prepare(int stage)
+{
+    static live_state made[MESH_SCENES];
+    if (stage < STAGE_TRIANGLES)
+        return;
+    const int which = stage == STAGE_TRIANGLES ? ON_THE_FLOOR : ON_THE_PEDESTAL;
+    live_state now;
+    live_save(&now);
+    memset(&now.camera, 0, sizeof now.camera); /* may move */
+    now.pivot = rt_vec(0, 0, 0);
+    if (memcmp(&now, &made[which], sizeof now) == 0)
+        return;
+    made[which] = now;
+    room_prepare(which);
 }
 
 static void live_reset(void)
@@ -493,7 +552,7 @@ static int live_outlines(int stage, const demo_view *view, demo_line *lines, int
     if (stage >= 2)
         live_box(&l, rt_vec(-50, -20, -60), rt_vec(50, 40, 60));
     live_ball(&l, room_spheres[0].center, room_spheres[0].radius);
-    if (stage >= 3)
+    if (stage >= 3 && stage < STAGE_TRIANGLES)
         live_box(&l, room_cube.min, room_cube.max);
     if (stage >= 6)
         live_ball(&l, room_spheres[ROOM_MIRROR].center, room_spheres[ROOM_MIRROR].radius);
@@ -569,9 +628,11 @@ static void live_summary(const rt_scene *scene, const rt_path *path, demo_text *
                  v->lamp >= 0 ? "the lamp" : shape_name(scene, v->shape));
         if (v->lamp >= 0 && n > 0)
             text_add(out, " by chance, weight %.2f", (double)v->weight);
-        if (v->shape >= 0)
+        if (v->shape >= 0) {
+            print_place(out, scene, v);
             text_add(out, ", t %.4g, N (%.2f %.2f %.2f)", (double)v->hit.t, (double)N.x,
                      (double)N.y, (double)N.z);
+        }
         for (int i = 0; i < path->shadow_count; i++)
             if (path->shadows[i].vertex == n) {
                 const rt_shadow *s = &path->shadows[i];
@@ -644,6 +705,7 @@ static rt_status live_explain(int stage, const rt_options *options, const rt_ima
 static const demo_live live_room = {
     .render = live_render,
     .draft = live_draft,
+    .prepare = live_prepare,
     .encode = live_encode,
     .orbit = live_orbit,
     .pan = live_pan,
