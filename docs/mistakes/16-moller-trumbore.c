@@ -6,8 +6,7 @@
  *          differently from its neighbour: close to the edge between them each may say that
  *          the other one is meant
  * Cure:    both ask the same two products about the edge that they share
- * Picture: edges
- * Options:
+ * Options: edges
  */
 #define rt_hit_triangle my_hit_triangle
 #include "rt.h"

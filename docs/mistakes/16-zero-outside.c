@@ -4,8 +4,7 @@
  *          through a corner, gets through: here all edges of the right half, and many on the left
  * Cause:   w > 0 was asked in place of w >= 0, by both triangles
  * Cure:    what lies on the edge is inside, for both of them: better two hits than none
- * Picture: edges
- * Options:
+ * Options: edges
  */
 #define rt_hit_triangle my_hit_triangle
 #include "rt.h"
