@@ -1301,19 +1301,42 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
  * scenes", SIGGRAPH 1980.
  * ==================================================================================== */
 
-/* Up to eight boxes, and what is in each: a shape, or another node. Eight, and one
- * array for each coordinate, because that is what a core of today can look at in one go
- * (see the last section). */
+/* The number of the nearest shape on the ray before t_max, or of any; or -1. */
+typedef int rt__search_function(const struct rt_scene *scene, const rt_ray *ray,
+                                float t_max, bool any);
+
+/* Up to eight boxes, and what is in each: a leaf, that is up to eight shapes of one kind,
+ * or another node. Eight, and one array for each coordinate, because that is what a core
+ * of today can look at in one go (see the last section). */
 typedef struct rt_bvh_node {
     float min_x[8], min_y[8], min_z[8], max_x[8], max_y[8], max_z[8];
-    int inside[8]; /* n: shape number n, spheres first, then boxes; -n: nodes[n] */
-    int count;
+    int inside[8]; /* -n: nodes[n]; else 4 r + kind: the leaf that begins at rows[r] */
+    int count;     /* of the boxes */
+    unsigned char order[28]; /* for the last section: in which order rays meet them */
 } rt_bvh_node;
+
+/* The first row of a leaf has the numbers of its shapes, -1 for none. Those that follow
+ * are for the last section, with a copy of the shapes, column by column: */
+typedef union rt_bvh_row {
+    int number[8];
+    float value[8];
+} rt_bvh_row;
+
+enum {
+    RT__SPHERES,   /* x, y, z, radius */
+    RT__BOXES,     /* min x, y, z, max x, y, z; and custom shapes: boxes around them */
+    RT__TRIANGLES, /* A x, y, z, B x, y, z, C x, y, z */
+    RT__KINDS
+};
 
 /* What rt_build_bvh makes of a scene. All zero is an empty one. */
 typedef struct rt_bvh {
     rt_bvh_node *nodes; /* nodes[0] is around everything */
-    int node_count, sphere_count, box_count, triangle_count, custom_shape_count;
+    rt_bvh_row *rows;
+    int node_count, row_count;
+    int sphere_count, box_count, triangle_count, custom_shape_count;
+    void *memory;                /* in which nodes and rows lie */
+    rt__search_function *search; /* NULL, or that of the last section */
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
 
@@ -1389,9 +1412,6 @@ static inline unsigned rt__enter(const rt_bvh_node *node, const rt_ray *ray,
     return result;
 }
 
-typedef unsigned rt__enter_function(const rt_bvh_node *node, const rt_ray *ray,
-                                    rt_vec3 inverse, float t_max, float *t);
-
 static inline bool rt__is_finite(rt_vec3 v)
 {
     return v.x * 0.0f + v.y * 0.0f + v.z * 0.0f == 0.0f; /* infinity and NaN: NaN */
@@ -1423,9 +1443,9 @@ static inline float rt__meet_shape(const rt_scene *scene, int number, const rt_r
                                     : rt__meet_other(scene, number, ray, t_max);
 }
 
-/* What a ray on its way through the tree has yet to look at: a shape or a node (see
- * rt_bvh_node) and t, before which there is no hit in it, in one number, of which t is
- * the upper half: floats above 0 are in the same order as their bits. */
+/* What a ray on its way through the tree has yet to look at: a leaf or a node (inside,
+ * see rt_bvh_node) and t, before which there is no hit in it, in one number, of which t
+ * is the upper half: floats above 0 are in the same order as their bits. */
 typedef uint64_t rt__item;
 
 /* So many of them may wait, and never more do. Each node that the search enters puts up
@@ -1449,11 +1469,48 @@ static inline float rt__item_t(rt__item item)
     return t;
 }
 
+/* The nearest shape so far, and where. */
+typedef struct rt__best {
+    int number; /* -1: none */
+    float t;
+} rt__best;
+
+/* A little beyond t, since a tie counts. */
+static inline float rt__beyond(float t)
+{
+    const float more = t * FLT_EPSILON + FLT_MIN;
+    return t < FLT_MAX - more ? t + more : FLT_MAX;
+}
+
+/* This shape is met at t, or not, which is 0. Of several at the same t the first wins. */
+static inline void rt__consider(rt__best *best, int number, float t)
+{
+    if (t > 0.0f && (t < best->t || (t == best->t && number < best->number))) {
+        best->t = t;
+        best->number = number;
+    }
+}
+
+/* All shapes of a leaf. If any will do, returns whether one is met. */
+static inline bool rt__ask_leaf(const rt_scene *scene, int leaf, const rt_ray *ray,
+                                bool any, rt__best *best)
+{
+    const int *numbers = scene->bvh->rows[leaf >> 2].number;
+    for (int k = 0; k < 8 && numbers[k] >= 0; k++) {
+        const float limit = any ? best->t : rt__beyond(best->t);
+        const float t = rt__meet_shape(scene, numbers[k], ray, limit);
+        if (any && t > 0.0f)
+            return true;
+        rt__consider(best, numbers[k], t);
+    }
+    return false;
+}
+
 /* The number of the nearest shape that the ray meets before t_max, of the first of
- * several at the same t; or if any will do, of any; or -1. What is entered first is
- * looked at first, so that most of the rest turns out to be too far away. */
-RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max, bool any,
-                          rt__enter_function *enter)
+ * several at the same t, or -1; or if any will do, 0 if there is one. What is entered
+ * first is looked at first, so that most of the rest turns out to be too far away. */
+static inline int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
+                             bool any)
 {
     rt__item waiting[RT__WAITING];
     if (!rt__is_finite(ray->origin) || !rt__is_finite(ray->direction))
@@ -1462,12 +1519,16 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
         rt_vec(rt__inverse(ray->direction.x), rt__inverse(ray->direction.y),
                rt__inverse(ray->direction.z));
     const rt_bvh_node *node = scene->bvh->nodes;
+    rt__best best;
+    best.number = -1;
+    best.t = t_max;
     float t[8];
-    int best = -1, count = 0;
+    int count = 0;
     for (;;) {
         const int before = count;
         rt__item first = UINT64_MAX;
-        for (unsigned in = enter(node, ray, inverse, t_max, t); in != 0; in &= in - 1u) {
+        for (unsigned in = rt__enter(node, ray, inverse, best.t, t); in != 0;
+             in &= in - 1u) {
             const int k = rt__lowest(in);
             const rt__item item = rt__make_item(t[k], node->inside[k]);
             waiting[count++] = item > first ? item : first;
@@ -1481,29 +1542,28 @@ RT__INLINE int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
         }
         for (node = NULL; !node;) {
             if (count == 0)
-                return best;
+                return best.number;
             const rt__item item = waiting[--count];
-            if (rt__item_t(item) > t_max)
+            if (rt__item_t(item) > best.t)
                 continue;
-            const int number = (int)(uint32_t)item;
-            if (number < 0) {
-                node = &scene->bvh->nodes[-number];
-            } else if (any) {
-                if (rt__meet_shape(scene, number, ray, t_max) > 0.0f)
-                    return number;
-            } else {
-                /* a little beyond t_max: a tie counts */
-                const float more = t_max * FLT_EPSILON + FLT_MIN;
-                const float limit = t_max < FLT_MAX - more ? t_max + more : FLT_MAX;
-                const float found = rt__meet_shape(scene, number, ray, limit);
-                if (found > 0.0f &&
-                    (found < t_max || (found == t_max && number < best))) {
-                    t_max = found;
-                    best = number;
-                }
-            }
+            const int inside = (int)(uint32_t)item;
+            if (inside < 0)
+                node = &scene->bvh->nodes[-inside];
+            else if (rt__ask_leaf(scene, inside, ray, any, &best))
+                return 0;
         }
     }
+}
+
+/* That of the last section finds the same sooner, but calls no routine of yours. */
+static inline int rt__search_tree(const rt_scene *scene, const rt_ray *ray, float t_max,
+                                  bool any)
+{
+#ifndef RT__OWN
+    if (scene->bvh->search)
+        return scene->bvh->search(scene, ray, t_max, any);
+#endif
+    return rt__search(scene, ray, t_max, any);
 }
 
 static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
@@ -1516,7 +1576,7 @@ static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
 {
     if (scene->bvh->path)
         return rt__intersect_noted(scene, ray, hit);
-    const int number = rt__search(scene, ray, FLT_MAX, false, rt__enter);
+    const int number = rt__search_tree(scene, ray, FLT_MAX, false);
     return number >= 0 && rt__hit_shape(scene, number, ray, 0.0, hit);
 }
 
@@ -1524,7 +1584,7 @@ static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, fl
 {
     if (scene->bvh->path)
         return rt__occluded_noted(scene, ray, t_max);
-    return rt__search(scene, ray, t_max, true, rt__enter) >= 0;
+    return rt__search_tree(scene, ray, t_max, true) >= 0;
 }
 
 /* ====================================================================================
@@ -2329,11 +2389,16 @@ static inline rt_vec3 rt_corner(const rt_mesh *mesh, int triangle, int k)
 }
 
 /* (B - A) x (C - A): across the triangle, to its outside, twice its area long. */
+static inline rt_dvec3 rt__across_corners(rt_vec3 a, rt_vec3 b, rt_vec3 c)
+{
+    return rt_dcross(rt_dsub(rt_to_double(b), rt_to_double(a)),
+                     rt_dsub(rt_to_double(c), rt_to_double(a)));
+}
+
 static inline rt_dvec3 rt__across(const rt_mesh *mesh, int triangle)
 {
-    const rt_dvec3 a = rt_to_double(rt_corner(mesh, triangle, 0));
-    return rt_dcross(rt_dsub(rt_to_double(rt_corner(mesh, triangle, 1)), a),
-                     rt_dsub(rt_to_double(rt_corner(mesh, triangle, 2)), a));
+    return rt__across_corners(rt_corner(mesh, triangle, 0), rt_corner(mesh, triangle, 1),
+                              rt_corner(mesh, triangle, 2));
 }
 
 /* The mean of the corners with these weights, whose sum must be 1. */
@@ -2427,21 +2492,20 @@ static inline double rt__meet_corners(const rt__shear *shear, rt_vec3 corner_a,
     if (!(sum != 0.0)) /* seen from the edge, or no area */
         return 0.0;
     const double t = (w_a * a.z + w_b * b.z + w_c * c.z) * shear->z / sum;
+    if (!(t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max))
+        return 0.0;
     *weights = rt_dvec(w_a, w_b, w_c);
-    return t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max ? t : 0.0;
+    const rt_dvec3 n = rt__across_corners(corner_a, corner_b, corner_c);
+    return rt_ddot(n, n) > 0.0 ? t : 0.0; /* rounding may give a line an area */
 }
 
 static inline double rt__meet_triangle(const rt_mesh *mesh, int triangle,
                                        const rt__shear *shear, float t_max,
                                        rt_dvec3 *weights)
 {
-    const double t = rt__meet_corners(shear, rt_corner(mesh, triangle, 0),
-                                      rt_corner(mesh, triangle, 1),
-                                      rt_corner(mesh, triangle, 2), t_max, weights);
-    if (!(t > 0.0))
-        return 0.0;
-    const rt_dvec3 n = rt__across(mesh, triangle);
-    return rt_ddot(n, n) > 0.0 ? t : 0.0; /* rounding may give a line an area */
+    return rt__meet_corners(shear, rt_corner(mesh, triangle, 0),
+                            rt_corner(mesh, triangle, 1), rt_corner(mesh, triangle, 2),
+                            t_max, weights);
 }
 
 /* The point of the triangle on the ray, if 0 < t < t_max. See above how it is found. P is
@@ -3461,6 +3525,9 @@ static inline void rt__note_event(const rt_scene *scene, rt_event event, bool in
 #endif
 #ifdef _OPENMP
 #include <omp.h>
+#if _OPENMP >= 200805
+#define RT__TASKS
+#endif
 #else
 #include <time.h>
 #endif
@@ -3801,123 +3868,286 @@ static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
     return b;
 }
 
-/* Some of the shapes: order[first] and those after it. */
-typedef struct rt__group {
-    int first, count;
+/* A shape that is to be put into the tree. */
+typedef struct rt__entry {
     rt__bounds bounds;
+    int number;
+} rt__entry;
+
+/* Some of them, of one kind: entries[first] and those after it. */
+typedef struct rt__group {
+    rt__bounds bounds;
+    int first, count;
 } rt__group;
 
-static inline rt__bounds rt__bounds_of(const rt__bounds *bounds, const int *order,
-                                       int count)
+/* A node to be, and how many nodes and rows there are in it and below. */
+typedef struct rt__branch {
+    rt__group groups[8]; /* count 0: none */
+    int nodes;
+    int64_t rows;
+} rt__branch;
+
+static inline rt__bounds rt__middles_of(const rt__entry *entries, const rt__group *group)
 {
-    rt__bounds whole = rt__no_bounds();
-    for (int i = 0; i < count; i++)
-        rt__grow(&whole, &bounds[order[i]]);
-    return whole;
+    rt__bounds middles = rt__no_bounds();
+    for (int i = group->first; i < group->first + group->count; i++) {
+        rt__bounds middle;
+        middle.min = middle.max = rt__middle(&entries[i].bounds);
+        rt__grow(&middles, &middle);
+    }
+    return middles;
 }
+
+static inline rt__group rt__group_of(const rt__entry *entries, int first, int count)
+{
+    rt__group group;
+    group.first = first;
+    group.count = count;
+    group.bounds = rt__no_bounds();
+    for (int i = first; i < first + count; i++)
+        rt__grow(&group.bounds, &entries[i].bounds);
+    return group;
+}
+
+/* A part of a group, between two places along an axis. */
+typedef struct rt__bin {
+    rt__bounds bounds, middles;
+    int count;
+} rt__bin;
 
 enum { RT__BINS = 16 };
 
-/* In which of the bins between low and low + extent a shape lies, along an axis. */
-static inline int rt__bin(const rt__bounds *b, int axis, float low, float extent)
+static inline void rt__add_bin(rt__bin *bin, const rt__bin *other)
 {
-    const float middle = rt__component(rt__middle(b), axis);
-    const int bin = (int)((float)RT__BINS * ((middle - low) / extent));
-    return bin < 0 ? 0 : bin < RT__BINS ? bin : RT__BINS - 1;
+    rt__grow(&bin->bounds, &other->bounds);
+    rt__grow(&bin->middles, &other->middles);
+    bin->count += other->count;
 }
 
-/* Sort a group of shapes into two, and say how many are in the first.
+static inline rt__bin rt__no_bin(void)
+{
+    rt__bin bin;
+    bin.bounds = bin.middles = rt__no_bounds();
+    bin.count = 0;
+    return bin;
+}
+
+/* Which bin a shape belongs to. */
+static inline int rt__bin_of(const rt__entry *entry, int axis, float low, float scale)
+{
+    const float middle = rt__component(rt__middle(&entry->bounds), axis);
+    const int bin = (int)((middle - low) * scale);
+    return bin < RT__BINS ? bin : RT__BINS - 1;
+}
+
+#ifndef RT__PRICE
+#define RT__PRICE(n) (n)
+#endif
+/* What it costs to ask so many shapes. */
+static inline double rt__price(int count)
+{
+    return (double)RT__PRICE(count);
+}
+
+/* The first cut of the cheapest two, and in *one and *two what it makes. */
+static inline int rt__cheapest_cut(const rt__bin *bins, rt__bin *one, rt__bin *two)
+{
+    rt__bin side = rt__no_bin(), after[RT__BINS];
+    double best_cost = DBL_MAX;
+    int best = 1;
+    for (int k = RT__BINS - 1; k > 0; k--) {
+        rt__add_bin(&side, &bins[k]);
+        after[k] = side;
+    }
+    side = rt__no_bin();
+    for (int k = 1; k < RT__BINS; k++) {
+        rt__add_bin(&side, &bins[k - 1]);
+        const double cost = rt__area(&side.bounds) * rt__price(side.count) +
+                            rt__area(&after[k].bounds) * rt__price(after[k].count);
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = k;
+            *one = side;
+            *two = after[k];
+        }
+    }
+    return best;
+}
+
+/* Cut a group into itself and another. middles: in the box around the middles of all, out
+ * those of both.
  *
  * A ray enters a box in proportion to its surface, and then asks what is inside: the
  * two cost A_left n_left + A_right n_right. Of 15 cuts across the longest axis the
  * cheapest is taken: the surface area heuristic, in bins (I. Wald, "On fast
  * construction of SAH-based bounding volume hierarchies", 2007). A giant among small
  * shapes is cut off by it at once, and spoils only the boxes above. */
-static inline int rt__split(const rt__bounds *bounds, int *order, int count)
+static inline void rt__split(rt__entry *entries, bool in_halves, rt__group *group,
+                             rt__bounds *middles, rt__group *other,
+                             rt__bounds *other_middles)
 {
-    rt__bounds middles = rt__no_bounds();
-    for (int i = 0; i < count; i++) {
-        rt__bounds middle;
-        middle.min = middle.max = rt__middle(&bounds[order[i]]);
-        rt__grow(&middles, &middle);
-    }
-    const rt_vec3 extents = rt_sub(middles.max, middles.min);
+    const rt_vec3 extents = rt_sub(middles->max, middles->min);
     const int axis = extents.x >= extents.y && extents.x >= extents.z ? 0
                      : extents.y >= extents.z                         ? 1
                                                                       : 2;
-    const float low = rt__component(middles.min, axis);
+    const float low = rt__component(middles->min, axis);
     const float extent = rt__component(extents, axis);
-    if (!(extent > 0.0f)) /* all in one place: no cut is better than another */
-        return count / 2;
-
-    rt__bounds bins[RT__BINS], side = rt__no_bounds();
-    int counts[RT__BINS] = {0}, n = 0, best = 1;
-    double best_cost = DBL_MAX, costs[RT__BINS]; /* of a bin and those after it */
+    const int first = group->first, end = first + group->count;
+    if (in_halves || !(extent > 1e-30f)) { /* all in one place: no cut is better */
+        const int half = group->count / 2;
+        *group = rt__group_of(entries, first, half);
+        *other = rt__group_of(entries, first + half, end - first - half);
+        *middles = rt__middles_of(entries, group);
+        *other_middles = rt__middles_of(entries, other);
+        return;
+    }
+    const float scale = (float)RT__BINS / extent;
+    rt__bin bins[RT__BINS], one = rt__no_bin(), two = one;
     for (int k = 0; k < RT__BINS; k++)
-        bins[k] = rt__no_bounds();
-    for (int i = 0; i < count; i++) {
-        const int k = rt__bin(&bounds[order[i]], axis, low, extent);
-        rt__grow(&bins[k], &bounds[order[i]]);
-        counts[k]++;
+        bins[k] = rt__no_bin();
+    for (int i = first; i < end; i++) {
+        rt__bin *bin = &bins[rt__bin_of(&entries[i], axis, low, scale)];
+        rt__bounds middle;
+        middle.min = middle.max = rt__middle(&entries[i].bounds);
+        rt__grow(&bin->bounds, &entries[i].bounds);
+        rt__grow(&bin->middles, &middle);
+        bin->count++;
     }
-    for (int k = RT__BINS - 1; k > 0; k--) {
-        rt__grow(&side, &bins[k]);
-        n += counts[k];
-        costs[k] = rt__area(&side) * n;
+    const int best = rt__cheapest_cut(bins, &one, &two);
+    int left = first;
+    for (int i = first; i < end; i++) { /* those before the cut go to the front */
+        const rt__entry entry = entries[i];
+        entries[i] = entries[left];
+        entries[left] = entry;
+        left += rt__bin_of(&entry, axis, low, scale) < best;
     }
-    side = rt__no_bounds();
-    n = 0;
-    for (int k = 1; k < RT__BINS; k++) {
-        rt__grow(&side, &bins[k - 1]);
-        n += counts[k - 1];
-        const double cost = rt__area(&side) * n + costs[k];
-        if (cost < best_cost) {
-            best_cost = cost;
-            best = k;
-        }
-    }
-    int left = 0;
-    for (int i = 0; i < count; i++) {
-        const int number = order[i];
-        if (rt__bin(&bounds[number], axis, low, extent) < best) {
-            order[i] = order[left];
-            order[left++] = number;
-        }
-    }
-    return left;
+    group->count = one.count;
+    group->bounds = one.bounds;
+    *middles = one.middles;
+    other->first = left;
+    other->count = two.count;
+    other->bounds = two.bounds;
+    *other_middles = two.middles;
 }
 
-/* Cut a group into up to eight: always the one that costs most, or in halves, the one
- * with the most shapes: then none of the eight has more than an eighth of them, rounded
- * up. Returns how many. */
-static inline int rt__split_in_eight(const rt__bounds *bounds, int *order, bool in_halves,
-                                     rt__group *groups)
+/* Cut the groups of a branch until there are eight, or all are leaves: always the one
+ * that costs most, or in halves, the one with the most shapes: then none of the eight
+ * has more than an eighth of them, rounded up. */
+static inline void rt__split_in_eight(rt__entry *entries, bool in_halves,
+                                      rt__group *groups)
 {
-    int count = 1;
+    rt__bounds middles[8];
+    int count = 0;
+    for (; count < 8 && groups[count].count > 0; count++)
+        middles[count] = rt__middles_of(entries, &groups[count]);
     while (count < 8) {
         int worst = -1;
         double worst_cost = -1.0;
         for (int k = 0; k < count; k++) {
             const double area = in_halves ? 1.0 : rt__area(&groups[k].bounds);
             const double cost = area * groups[k].count;
-            if (groups[k].count > 1 && cost > worst_cost) {
+            if (groups[k].count > 8 && cost > worst_cost) {
                 worst_cost = cost;
                 worst = k;
             }
         }
         if (worst < 0)
             break;
-        rt__group *one = &groups[worst], *two = &groups[count++];
-        int *those = order + one->first;
-        const int left =
-            in_halves ? one->count / 2 : rt__split(bounds, those, one->count);
-        two->first = one->first + left;
-        two->count = one->count - left;
-        two->bounds = rt__bounds_of(bounds, those + left, two->count);
-        one->count = left;
-        one->bounds = rt__bounds_of(bounds, those, left);
+        rt__split(entries, in_halves, &groups[worst], &middles[worst], &groups[count],
+                  &middles[count]);
+        count++;
     }
-    return count;
+}
+
+/* Which level of the tree is the first to be cut in halves. Above it the cheapest cut may
+ * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level
+ * a node has less than 2^31 shapes, on each of the next ten at most an eighth as many:
+ * 2^28, 2^25 ... 2. That is a leaf, so there are 21 + 11 levels at most. */
+enum { RT__HALVES = RT__LEVELS - 11 };
+
+/* So many shapes are worth a task for another thread. */
+enum { RT__TASK = 4096 };
+
+/* A group of n > 8 shapes makes at most (n - 2) / 7 nodes: itself and those below. If its
+ * node has only leaves, n >= 9. Else it has eight groups, m of them of more than eight
+ * shapes: if it is true of those, they make at most (n - (8 - m) - 2 m) / 7, and
+ * with the node itself (n - 1 - m) / 7. So each group has a slice of the branches of its
+ * own, whatever the threads do: the tree is the same for any number of them. */
+static inline int rt__most_nodes(int count)
+{
+    return count > 8 ? (count - 2) / 7 : 0;
+}
+
+/* What it takes to build a tree. */
+typedef struct rt__builder {
+    const rt_scene *scene;
+    rt__entry *entries;
+    rt__branch *branches;
+    rt_bvh *bvh;
+} rt__builder;
+
+/* Does a group deserve a task? */
+static inline bool rt__is_large(const rt__group *group)
+{
+    return group->count > RT__TASK;
+}
+
+/* The kind of the shape with this number, see rt_bvh_row, ... */
+static inline int rt__kind_of(const rt_scene *scene, int number)
+{
+    const int box = number - scene->sphere_count;
+    return box < 0                                                 ? RT__SPHERES
+           : box < scene->box_count                                ? RT__BOXES
+           : rt__other_of(scene, number).mesh == scene->mesh_count ? RT__BOXES
+                                                                   : RT__TRIANGLES;
+}
+
+/* ... and how many rows a leaf of this kind has. */
+static inline int rt__rows(int kind)
+{
+    return kind == RT__SPHERES ? 5 : kind == RT__BOXES ? 7 : 10;
+}
+
+/* Branch number at, of which the groups are set, and all below it. */
+static inline void rt__build_branch(const rt__builder *b, int at, int depth)
+{
+    rt__branch *branch = &b->branches[at];
+    RT_ASSERT(depth < RT__LEVELS);
+    rt__split_in_eight(b->entries, depth >= RT__HALVES, branch->groups);
+    int slice = at + 1;
+    for (int k = 0; k < 8; k++) {
+        const rt__group *group = &branch->groups[k];
+        if (group->count <= 8)
+            continue;
+        memset(b->branches[slice].groups, 0, sizeof b->branches[slice].groups);
+        b->branches[slice].groups[0] = *group;
+        if (rt__is_large(group)) {
+#ifdef RT__TASKS
+#pragma omp task
+#endif
+            rt__build_branch(b, slice, depth + 1);
+        } else {
+            rt__build_branch(b, slice, depth + 1);
+        }
+        slice += rt__most_nodes(group->count);
+    }
+#ifdef RT__TASKS
+#pragma omp taskwait
+#endif
+    branch->nodes = 1;
+    branch->rows = 0;
+    slice = at + 1;
+    for (int k = 0; k < 8; k++) {
+        const rt__group *group = &branch->groups[k];
+        if (group->count > 8) {
+            branch->nodes += b->branches[slice].nodes;
+            branch->rows += b->branches[slice].rows;
+            slice += rt__most_nodes(group->count);
+        } else if (group->count > 0) {
+            branch->rows +=
+                rt__rows(rt__kind_of(b->scene, b->entries[group->first].number));
+        }
+    }
 }
 
 static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
@@ -3930,48 +4160,119 @@ static inline void rt__set_box(rt_bvh_node *node, int k, const rt__bounds *b)
     node->max_z[k] = b->max.z;
 }
 
-/* Which level of the tree is the first to be cut in halves. Above it the cheapest cut may
- * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level
- * a node has less than 2^31 shapes, on each of the next ten at most an eighth as many:
- * 2^28, 2^25 ... 2. Two shapes need no further level, so there are 21 + 11 levels. */
-enum { RT__HALVES = RT__LEVELS - 11 };
-
-/* All nodes. Groups that wait to become nodes are on a stack, never more of them than
- * boxes on that of rt__search. */
-static inline void rt__build_nodes(rt_bvh *bvh, const rt__bounds *bounds, int *order,
-                                   int count)
+static inline void rt__put_vec(float *to, rt_vec3 v)
 {
-    struct {
-        int node, depth;
-        rt__group group;
-    } todo[RT__WAITING];
-    int waiting = 1;
-    todo[0].node = todo[0].depth = 0;
-    todo[0].group.first = 0;
-    todo[0].group.count = count;
-    todo[0].group.bounds = rt__bounds_of(bounds, order, count);
-    bvh->node_count = 1;
-    bvh->nodes[0].count = 0;
-    while (waiting > 0 && count > 0) {
-        waiting--;
-        rt_bvh_node *node = &bvh->nodes[todo[waiting].node];
-        const int depth = todo[waiting].depth;
-        rt__group groups[8];
-        RT_ASSERT(depth < RT__LEVELS && waiting + 8 <= RT__WAITING);
-        groups[0] = todo[waiting].group;
-        node->count = rt__split_in_eight(bounds, order, depth >= RT__HALVES, groups);
-        for (int k = 0; k < node->count; k++) {
-            rt__set_box(node, k, &groups[k].bounds);
-            if (groups[k].count == 1) {
-                node->inside[k] = order[groups[k].first];
-                continue;
-            }
-            todo[waiting].node = bvh->node_count++;
-            todo[waiting].depth = depth + 1;
-            todo[waiting].group = groups[k];
-            node->inside[k] = -todo[waiting++].node;
-        }
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+/* What a leaf has of a shape. */
+static inline void rt__set_values(const rt_scene *scene, int number, float *values)
+{
+    const int box = number - scene->sphere_count;
+    if (box < 0) {
+        rt__put_vec(values, scene->spheres[number].center);
+        values[3] = scene->spheres[number].radius;
+        return;
     }
+    if (box < scene->box_count) {
+        rt__put_vec(values, scene->boxes[box].min);
+        rt__put_vec(values + 3, scene->boxes[box].max);
+        return;
+    }
+    const rt__other p = rt__other_of(scene, number);
+    if (p.mesh == scene->mesh_count) {
+        const rt__bounds bounds = rt__other_bounds(scene, p);
+        rt__put_vec(values, bounds.min);
+        rt__put_vec(values + 3, bounds.max);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        rt__put_vec(values + 3 * k, rt_corner(&scene->meshes[p.mesh], p.part, k));
+}
+
+/* The leaf at rows[at]; returns what a node says of it. Columns without a shape are NaN,
+ * which meets nothing. */
+static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int at)
+{
+    const rt__entry *entries = &b->entries[group->first];
+    const int kind = rt__kind_of(b->scene, entries->number), rows = rt__rows(kind);
+    rt_bvh_row *row = &b->bvh->rows[at];
+    for (int k = 0; k < 8; k++) {
+        float values[9];
+        for (int i = 0; i < 9; i++)
+            values[i] = NAN;
+        row->number[k] = k < group->count ? entries[k].number : -1;
+        if (k < group->count)
+            rt__set_values(b->scene, entries[k].number, values);
+        for (int i = 1; i < rows; i++)
+            row[i].value[k] = values[i - 1];
+    }
+    return at << 2 | kind;
+}
+
+/* In which order does a ray meet the boxes? Bit 0, 1, 2 of octant: it goes down along x,
+ * y, z. It is a guess, by where they begin, and only the time depends on it. Eight
+ * numbers of three bits. */
+static inline void rt__set_order(rt_bvh_node *node)
+{
+    for (int octant = 0; octant < 8; octant++) {
+        float begin[8];
+        uint32_t order = 0;
+        for (int k = 0; k < node->count; k++) {
+            const float x = (octant & 1) != 0 ? -node->max_x[k] : node->min_x[k];
+            const float y = (octant & 2) != 0 ? -node->max_y[k] : node->min_y[k];
+            const float z = (octant & 4) != 0 ? -node->max_z[k] : node->min_z[k];
+            begin[k] = x + y + z;
+        }
+        for (int k = 0; k < 8; k++) { /* how many come before it? */
+            int before = k < node->count ? 0 : k;
+            for (int i = 0; k < node->count && i < node->count; i++)
+                before += begin[i] < begin[k] || (begin[i] == begin[k] && i < k);
+            order |= (uint32_t)k << 3 * before;
+        }
+        for (int i = 0; i < 3; i++)
+            node->order[3 * octant + i] = (unsigned char)(order >> 8 * i & 255u);
+    }
+}
+
+/* The branch becomes the node with this number, and those below come after it; and so
+ * for the rows. */
+static inline void rt__set_node(const rt__builder *b, int at, int number, int row)
+{
+    const rt__branch *branch = &b->branches[at];
+    rt_bvh_node *node = &b->bvh->nodes[number++];
+    rt__bounds nothing;
+    nothing.min = rt_vec(INFINITY, INFINITY, INFINITY);
+    nothing.max = rt_scale(nothing.min, -1.0f);
+    int slice = at + 1;
+    memset(node, 0, sizeof *node);
+    for (int k = 0; k < 8; k++) {
+        const rt__group *group = &branch->groups[k];
+        rt__set_box(node, k, group->count > 0 ? &group->bounds : &nothing);
+        if (group->count == 0)
+            continue;
+        node->count = k + 1;
+        if (group->count <= 8) {
+            node->inside[k] = rt__set_leaf(b, group, row);
+            row += rt__rows(rt__kind_of(b->scene, b->entries[group->first].number));
+            continue;
+        }
+        node->inside[k] = -number;
+        if (rt__is_large(group)) {
+#ifdef RT__TASKS
+#pragma omp task
+#endif
+            rt__set_node(b, slice, number, row);
+        } else {
+            rt__set_node(b, slice, number, row);
+        }
+        number += b->branches[slice].nodes;
+        row += (int)b->branches[slice].rows;
+        slice += rt__most_nodes(group->count);
+    }
+    rt__set_order(node);
 }
 
 /* For one ray at a time, up to so many shapes are asked sooner without the tree. */
@@ -3981,11 +4282,75 @@ RTDEF void rt_free_bvh(rt_bvh *bvh)
 {
     if (!bvh)
         return;
-    RT_FREE(bvh->nodes);
+    RT_FREE(bvh->memory);
     memset(bvh, 0, sizeof *bvh);
 }
 
-RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
+/* Memory for nodes and rows, no more than they need, and nodes at whole cache lines. */
+static inline bool rt__make_room(rt_bvh *bvh, int nodes, int rows)
+{
+    const size_t line = 64;
+    bvh->memory = RT_MALLOC((size_t)nodes * sizeof *bvh->nodes +
+                            (size_t)rows * sizeof *bvh->rows + line);
+    if (!bvh->memory)
+        return false;
+    char *start = (char *)bvh->memory;
+    start += line - (uintptr_t)start % line;
+    bvh->nodes = (rt_bvh_node *)(void *)start;
+    bvh->rows = (rt_bvh_row *)(void *)(bvh->nodes + nodes);
+    bvh->node_count = nodes;
+    bvh->row_count = rows;
+    return true;
+}
+
+#if RT__LANES > 1
+static int rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_max,
+                            bool any); /* the last section */
+#endif
+
+/* The shapes, kind by kind, and of each kind a group. */
+static inline void rt__set_groups(const rt__builder *b, int count)
+{
+    const rt_scene *scene = b->scene;
+    const int spheres = scene->sphere_count, boxes = scene->box_count;
+    const int custom = scene->custom_shape_count, others = spheres + boxes;
+    const int counts[RT__KINDS] = {spheres, boxes + custom, count - others - custom};
+    rt__group *groups = b->branches[0].groups;
+    memset(groups, 0, sizeof b->branches[0].groups);
+    for (int i = 0; i < count; i++) {
+        const int number = i < others            ? i
+                           : i < others + custom ? count - custom + i - others
+                                                 : i - custom;
+        b->entries[i].number = number;
+        b->entries[i].bounds = rt__shape_bounds(scene, number);
+    }
+    for (int kind = 0, first = 0, k = 0; kind < RT__KINDS; first += counts[kind++])
+        if (counts[kind] > 0)
+            groups[k++] = rt__group_of(b->entries, first, counts[kind]);
+}
+
+/* The tree of a scene that is good, with so many threads. */
+static inline bool rt__build(const rt__builder *b, int count, int threads)
+{
+    rt__set_groups(b, count);
+    (void)threads;
+#ifdef RT__TASKS
+#pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
+#pragma omp single
+#endif
+    rt__build_branch(b, 0, 0);
+    const rt__branch *all = &b->branches[0];
+    if (all->rows > INT_MAX / 4 || !rt__make_room(b->bvh, all->nodes, (int)all->rows))
+        return false;
+#ifdef RT__TASKS
+#pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
+#pragma omp single
+#endif
+    rt__set_node(b, 0, 0, 0);
+    return true;
+}
+
+static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh *bvh)
 {
     if (!scene || !bvh)
         return RT_BAD_POINTER;
@@ -3998,32 +4363,33 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
     const rt_status status = rt_check_scene(&shapes, NULL);
     if (status != RT_OK)
         return status;
-    const size_t n = (size_t)count + 1; /* at least one */
-    /* A node has eight boxes, or only shapes in them, two at least. So of L nodes with
-     * only shapes and I others, 7 I = L - 1 + (shapes in the others), and I + L is
-     * largest when L = n / 2: n / 2 + n / 14. */
-    const size_t nodes = n / 2 + n / 14 + 1;
-    rt__bounds *bounds = (rt__bounds *)RT_MALLOC(n * sizeof *bounds);
-    int *order = (int *)RT_MALLOC(n * sizeof *order);
-    bvh->nodes = (rt_bvh_node *)RT_MALLOC(nodes * sizeof *bvh->nodes);
-    const bool good = bounds && order && bvh->nodes;
-    if (good) {
-        bounds[0] = rt__no_bounds();
-        for (int i = 0; i < count; i++) {
-            bounds[i] = rt__shape_bounds(scene, i);
-            order[i] = i;
-        }
-        rt__build_nodes(bvh, bounds, order, count);
-        bvh->sphere_count = scene->sphere_count;
-        bvh->box_count = scene->box_count;
-        bvh->triangle_count = rt__triangle_count(scene);
-        bvh->custom_shape_count = scene->custom_shape_count;
-    }
-    RT_FREE(bounds);
-    RT_FREE(order);
-    if (!good)
+    const size_t n = (size_t)count + 1, branches = (size_t)rt__most_nodes(count) + 1;
+    rt__builder b;
+    b.scene = scene;
+    b.bvh = bvh;
+    b.entries = (rt__entry *)RT_MALLOC(n * sizeof *b.entries);
+    b.branches = (rt__branch *)RT_MALLOC(branches * sizeof *b.branches);
+    const bool good = b.entries && b.branches && rt__build(&b, count, threads);
+    RT_FREE(b.entries);
+    RT_FREE(b.branches);
+    if (!good) {
         rt_free_bvh(bvh);
-    return good ? RT_OK : RT_NO_MEMORY;
+        return RT_NO_MEMORY;
+    }
+    bvh->sphere_count = scene->sphere_count;
+    bvh->box_count = scene->box_count;
+    bvh->triangle_count = rt__triangle_count(scene);
+    bvh->custom_shape_count = scene->custom_shape_count;
+#if RT__LANES > 1
+    if (rt_lane_count(0) > 1)
+        bvh->search = rt__search_alone;
+#endif
+    return RT_OK;
+}
+
+RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
+{
+    return rt__build_bvh(scene, rt_thread_count(0), bvh);
 }
 
 /* ---- the loop over samples and pixels -------------------------------------------- */
@@ -5245,12 +5611,17 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     const int shapes = rt__primitive_count(scene);
     memset(&bvh, 0, sizeof bvh);
     indexed = *scene;
-    if (!scene->bvh && (lanes > 1 || shapes > RT__FEW_ALONE)) {
-        status = rt_build_bvh(scene, &bvh);
+    if (scene->bvh) {
+        bvh = *scene->bvh;
+        bvh.memory = NULL; /* not ours */
+        indexed.bvh = &bvh;
+    } else if (lanes > 1 || shapes > RT__FEW_ALONE) {
+        status = rt__build_bvh(scene, rt_thread_count(job.options.threads), &bvh);
         if (status != RT_OK)
             return status;
         indexed.bvh = &bvh;
     }
+    bvh.search = NULL; /* lanes have their own, and one ray goes by the chapters */
     job.scene = &indexed;
 #if RT__LANES > 1
     if (lanes > 1)
@@ -5864,48 +6235,324 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
 
 /* ---- chapter 8: alone through the tree ------------------------------------------- */
 
-#if RT__LANES == 16 /* a node has eight boxes */
+#if RT__LANES == 16 /* a node has eight boxes, a leaf eight shapes */
 typedef float rt__boxes __attribute__((vector_size(32)));
 #define rt__bmin(a, b) ((rt__boxes)_mm256_min_ps(a, b))
 #define rt__bmax(a, b) ((rt__boxes)_mm256_max_ps(a, b))
+#define rt__bsqrt(v) ((rt__boxes)_mm256_sqrt_ps(v))
+#define rt__bfma(a, b, c) ((rt__boxes)_mm256_fmadd_ps(a, b, c))
+#define rt__bfnma(a, b, c) ((rt__boxes)_mm256_fnmadd_ps(a, b, c))
 #define rt__bat_most(a, b) ((unsigned)_mm256_cmp_ps_mask(a, b, _CMP_LE_OQ))
 #else
 typedef rt__f rt__boxes;
 #define rt__bmin(a, b) rt__fmin(a, b)
 #define rt__bmax(a, b) rt__fmax(a, b)
+#define rt__bsqrt(v) rt__fsqrt(v)
+#define rt__bfma(a, b, c) rt__fma(a, b, c)
+#define rt__bfnma(a, b, c) rt__fnma(a, b, c)
 #define rt__bat_most(a, b) rt__bits((a) <= (b))
 #endif
+enum { RT__STEP = (int)(sizeof(rt__boxes) / sizeof(float)) }; /* 8, or twice 4 */
 
-/* rt__trim. */
-RT__INLINE void rt__trim_boxes(const float *min, const float *max, float origin,
-                               float inverse, rt__boxes *t_in, rt__boxes *t_out)
+RT__INLINE rt__boxes rt__eight(const float *values)
 {
-    rt__boxes low, high;
-    memcpy(&low, min, sizeof low);
-    memcpy(&high, max, sizeof high);
-    low = (low - origin) * inverse;
-    high = (high - origin) * inverse;
-    *t_in = rt__bmax(*t_in, rt__bmin(low, high));
-    *t_out = rt__bmin(*t_out, rt__bmax(low, high));
+    rt__boxes v;
+    memcpy(&v, values, sizeof v);
+    return v;
 }
 
-/* rt__enter: here the lanes are the boxes of a node. */
-RT__INLINE unsigned rt__enter_boxes(const rt_bvh_node *node, const rt_ray *ray,
-                                    rt_vec3 inverse, float t_max, float *t)
+RT__INLINE rt__boxes rt__babs(rt__boxes v)
 {
-    const rt_vec3 o = ray->origin;
-    const int step = (int)(sizeof(rt__boxes) / sizeof(float));
-    unsigned result = 0;
-    for (int k = 0; k < 8; k += step) {
-        rt__boxes t_in = {0.0f}, t_out = t_in + t_max;
-        rt__trim_boxes(node->min_x + k, node->max_x + k, o.x, inverse.x, &t_in, &t_out);
-        rt__trim_boxes(node->min_y + k, node->max_y + k, o.y, inverse.y, &t_in, &t_out);
-        rt__trim_boxes(node->min_z + k, node->max_z + k, o.z, inverse.z, &t_in, &t_out);
-        t_in = t_in * (1.0f - 4.0f * FLT_EPSILON);
-        memcpy(t + k, &t_in, sizeof t_in);
-        result |= rt__bat_most(t_in, t_out) << k;
+    return rt__bmax(v, -v);
+}
+
+/* A ray, and what is the same for all that it asks. */
+typedef struct rt__probe {
+    rt_ray ray;
+    rt_vec3 inverse;
+    int octant;              /* see rt__set_order */
+    int in_x, in_y, in_z;    /* where in a node, in floats, the planes are ... */
+    int out_x, out_y, out_z; /* ... through which it comes and goes */
+    float over_a, over_root; /* 1 / <u,u>, 1 / |u| */
+    rt__shear shear;         /* of chapter 16 ... */
+    float origin[3], shear_x, shear_y; /* ... and in floats, turned */
+    int row[3];                        /* where the coordinates that become x, y, z are */
+} rt__probe;
+
+RT__INLINE rt__probe rt__probe_of(const rt_ray *ray)
+{
+    const rt_vec3 u = ray->direction;
+    rt__probe p;
+    p.ray = *ray;
+    p.inverse = rt_vec(rt__inverse(u.x), rt__inverse(u.y), rt__inverse(u.z));
+    const int x = p.inverse.x < 0.0f, y = p.inverse.y < 0.0f, z = p.inverse.z < 0.0f;
+    p.octant = x | y << 1 | z << 2;
+    p.in_x = x ? 24 : 0;
+    p.in_y = y ? 32 : 8;
+    p.in_z = z ? 40 : 16;
+    p.out_x = 24 - p.in_x;
+    p.out_y = 40 - p.in_y;
+    p.out_z = 56 - p.in_z;
+    p.over_a = 1.0f / rt_dot(u, u);
+    p.over_root = sqrtf(p.over_a);
+    p.shear = rt__shear_of(ray);
+    const rt_vec3 turned = rt_to_float(rt__turned(ray->origin, p.shear.axis));
+    rt__put_vec(p.origin, turned);
+    p.shear_x = (float)p.shear.x;
+    p.shear_y = (float)p.shear.y;
+    p.row[0] = 1 + (p.shear.axis + 1) % 3;
+    p.row[1] = 1 + (p.shear.axis + 2) % 3;
+    p.row[2] = 1 + p.shear.axis;
+    return p;
+}
+
+/* rt__enter, for the boxes k to k + RT__STEP - 1. The box without an inside that stands
+ * where there is none is never met. */
+RT__INLINE unsigned rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p,
+                                    float t_max, int k, rt__boxes *t)
+{
+    const float *planes = node->min_x + k;
+    const rt_vec3 o = p->ray.origin, inverse = p->inverse;
+    const rt__boxes zero = {0.0f};
+    const rt__boxes in_x = (rt__eight(planes + p->in_x) - o.x) * inverse.x;
+    const rt__boxes in_y = (rt__eight(planes + p->in_y) - o.y) * inverse.y;
+    const rt__boxes in_z = (rt__eight(planes + p->in_z) - o.z) * inverse.z;
+    const rt__boxes out_x = (rt__eight(planes + p->out_x) - o.x) * inverse.x;
+    const rt__boxes out_y = (rt__eight(planes + p->out_y) - o.y) * inverse.y;
+    const rt__boxes out_z = (rt__eight(planes + p->out_z) - o.z) * inverse.z;
+    const rt__boxes in = rt__bmax(rt__bmax(in_x, in_y), rt__bmax(in_z, zero));
+    const rt__boxes out = rt__bmin(rt__bmin(out_x, out_y), rt__bmin(out_z, zero + t_max));
+    *t = in * (1.0f - 4.0f * FLT_EPSILON);
+    return rt__bat_most(*t, out);
+}
+
+/* Which spheres of a leaf may the ray meet before t_max? */
+RT__INLINE unsigned rt__near_spheres(const rt_bvh_row *row, const rt__probe *p,
+                                     float t_max, int k)
+{
+    const rt_vec3 o = p->ray.origin, u = p->ray.direction;
+    const rt__boxes zero = {0.0f};
+    const rt__boxes x = rt__eight(row[1].value + k) - o.x;
+    const rt__boxes y = rt__eight(row[2].value + k) - o.y;
+    const rt__boxes z = rt__eight(row[3].value + k) - o.z;
+    const rt__boxes r = rt__eight(row[4].value + k);
+    const rt__boxes ff = rt__bfma(x, x, rt__bfma(y, y, z * z));
+    const rt__boxes b =
+        rt__bfma(x, zero + u.x, rt__bfma(y, zero + u.y, z * u.z)) * p->over_a;
+    const rt__boxes lx = rt__bfnma(b, zero + u.x, x);
+    const rt__boxes ly = rt__bfnma(b, zero + u.y, y);
+    const rt__boxes lz = rt__bfnma(b, zero + u.z, z);
+    const rt__boxes ll = rt__bfma(lx, lx, rt__bfma(ly, ly, lz * lz));
+    const rt__boxes reach = rt__bfma(ff, zero + 2e-9f, r * r * 1.001f + 1e-30f) - ll;
+    const rt__boxes h = rt__bsqrt(rt__bmax(reach, zero)) * p->over_root;
+    const rt__boxes slack = h * 1e-4f + rt__babs(b) * 1e-6f;
+    const rt__boxes begin = b - h - slack, end = b + h + slack;
+    return rt__bat_most(zero, reach) & rt__bat_most(begin, zero + t_max) &
+           rt__bat_most(zero, end);
+}
+
+/* Which boxes? They are made a little larger, as in rt__shape_bounds. */
+RT__INLINE unsigned rt__near_boxes(const rt_bvh_row *row, const rt__probe *p, float t_max,
+                                   int k)
+{
+    rt__boxes t_in = {0.0f}, t_out = t_in + t_max;
+    const float o[3] = {p->ray.origin.x, p->ray.origin.y, p->ray.origin.z};
+    const float inverse[3] = {p->inverse.x, p->inverse.y, p->inverse.z};
+    for (int axis = 0; axis < 3; axis++) {
+        const rt__boxes low = rt__eight(row[1 + axis].value + k);
+        const rt__boxes high = rt__eight(row[4 + axis].value + k);
+        const rt__boxes more =
+            rt__bmax(rt__babs(low), rt__babs(high)) * (2.0f * FLT_EPSILON) + 1e-15f;
+        const rt__boxes a = (low - more - o[axis]) * inverse[axis];
+        const rt__boxes b = (high + more - o[axis]) * inverse[axis];
+        t_in = rt__bmax(rt__bmin(a, b), t_in);
+        t_out = rt__bmin(rt__bmax(a, b), t_out);
     }
-    return result & ((1u << node->count) - 1u);
+    return rt__bat_most(t_in * (1.0f - 4.0f * FLT_EPSILON), t_out);
+}
+
+/* Corner number corner of eight triangles, sheared; and the largest coordinates so far. */
+RT__INLINE void rt__shear_corner(const rt_bvh_row *row, const rt__probe *p, int k,
+                                 int corner, rt__boxes *x, rt__boxes *y, rt__boxes *most,
+                                 rt__boxes *most_z)
+{
+    const rt_bvh_row *here = row + 3 * corner;
+    const rt__boxes zero = {0.0f};
+    const rt__boxes z = rt__eight(here[p->row[2]].value + k) - p->origin[2];
+    *x = rt__bfnma(z, zero + p->shear_x,
+                   rt__eight(here[p->row[0]].value + k) - p->origin[0]);
+    *y = rt__bfnma(z, zero + p->shear_y,
+                   rt__eight(here[p->row[1]].value + k) - p->origin[1]);
+    *most = rt__bmax(*most, rt__bmax(rt__babs(*x), rt__babs(*y)));
+    *most_z = rt__bmax(*most_z, rt__babs(z));
+}
+
+/* Which triangles? */
+RT__INLINE unsigned rt__near_triangles(const rt_bvh_row *row, const rt__probe *p, int k)
+{
+    const float e = 0.5f * FLT_EPSILON;
+    rt__boxes x[3], y[3], r = {0.0f}, z = r;
+    for (int i = 0; i < 3; i++)
+        rt__shear_corner(row, p, k, i, &x[i], &y[i], &r, &z);
+    const rt__boxes a = x[2] * y[1] - y[2] * x[1];
+    const rt__boxes b = x[0] * y[2] - y[0] * x[2];
+    const rt__boxes c = x[1] * y[0] - y[1] * x[0];
+    const rt__boxes error = (r + z) * (6.0f * e);
+    const rt__boxes bound =
+        r * (4.0f * error + (4.0f * e) * r) + 2.0f * error * error + 1e-37f;
+    const rt__boxes least = rt__bmin(rt__bmin(a, b), c),
+                    largest = rt__bmax(rt__bmax(a, b), c);
+    return rt__bat_most(-bound, least) | rt__bat_most(largest, bound);
+}
+
+/* The t of one of them, by the functions of the chapters. */
+RT__INLINE float rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, int kind,
+                                 int k, const rt__probe *p, float t_max)
+{
+    const rt_vec3 a = rt_vec(row[1].value[k], row[2].value[k], row[3].value[k]);
+    if (kind == RT__SPHERES) {
+        rt_sphere sphere;
+        sphere.center = a;
+        sphere.radius = row[4].value[k];
+        return (float)rt__meet_sphere(&sphere, &p->ray, t_max);
+    }
+    const rt_vec3 b = rt_vec(row[4].value[k], row[5].value[k], row[6].value[k]);
+    if (kind == RT__TRIANGLES) {
+        const rt_vec3 c = rt_vec(row[7].value[k], row[8].value[k], row[9].value[k]);
+        rt_dvec3 weights;
+        return (float)rt__meet_corners(&p->shear, a, b, c, t_max, &weights);
+    }
+    const int number = row->number[k];
+    if (number >= scene->sphere_count + scene->box_count)
+        return rt__meet_other(scene, number, &p->ray, t_max);
+    rt_box box;
+    box.min = a;
+    box.max = b;
+    return rt__meet_box(&box, &p->ray, t_max);
+}
+
+/* rt__ask_leaf: all in float, and the few that may be met once more in double. */
+RT__INLINE bool rt__ask_rows(const rt_scene *scene, int leaf, const rt__probe *p,
+                             bool any, rt__best *best)
+{
+    const rt_bvh_row *row = &scene->bvh->rows[leaf >> 2];
+    const int kind = leaf & 3;
+    unsigned maybe = 0;
+    for (int k = 0; k < 8; k += RT__STEP)
+        maybe |= (kind == RT__TRIANGLES ? rt__near_triangles(row, p, k)
+                  : kind == RT__SPHERES ? rt__near_spheres(row, p, best->t, k)
+                                        : rt__near_boxes(row, p, best->t, k))
+                 << k;
+    for (; maybe != 0; maybe &= maybe - 1u) {
+        const int k = rt__lowest(maybe);
+        const float limit = any ? best->t : rt__beyond(best->t);
+        const float t = rt__meet_column(scene, row, kind, k, p, limit);
+        if (any && t > 0.0f)
+            return true;
+        rt__consider(best, row->number[k], t);
+    }
+    return false;
+}
+
+/* rt__search. Two things are other: ... */
+RT__INLINE int rt__search_rows(const rt_scene *scene, const rt_ray *ray, float t_max,
+                               bool any)
+{
+    struct {
+        float t;
+        int inside;
+    } waiting[RT__WAITING];
+    if (!rt__is_finite(ray->origin) || !rt__is_finite(ray->direction))
+        return -1;
+    const float uu = rt_dot(ray->direction, ray->direction);
+    if (!(uu >= 1e-20f && uu <= 1e20f))
+        return rt__search(scene, ray, t_max, any);
+    const rt__probe p = rt__probe_of(ray);
+    const rt_bvh_node *nodes = scene->bvh->nodes, *node = nodes;
+    rt__best best;
+    best.number = -1;
+    best.t = t_max;
+    int count = 0;
+    for (;;) {
+        rt__boxes t[8 / RT__STEP];
+        unsigned in = 0;
+        for (int k = 0; k < 8; k += RT__STEP)
+            in |= rt__enter_boxes(node, &p, best.t, k, &t[k / RT__STEP]) << k;
+        int inside = 0;
+        bool pop = in == 0;
+        if (in != 0) {
+            const float *times = (const float *)t;
+            int k = rt__lowest(in);
+            inside = node->inside[k];
+            in &= in - 1u;
+            if (in != 0) {
+                float first = times[k];
+                do {
+                    k = rt__lowest(in);
+                    in &= in - 1u;
+                    const int next = node->inside[k];
+                    const float t2 = times[k];
+                    const bool nearer = !any && t2 < first;
+                    waiting[count].t = nearer ? first : t2;
+                    waiting[count++].inside = nearer ? inside : next;
+                    inside = nearer ? next : inside;
+                    first = nearer ? t2 : first;
+                } while (in != 0);
+            }
+        }
+        for (;;) {
+            if (pop) {
+                do {
+                    if (count == 0)
+                        return best.number;
+                    count--;
+                } while (waiting[count].t > best.t);
+                inside = waiting[count].inside;
+            }
+            if (inside < 0)
+                break;
+            if (rt__ask_rows(scene, inside, &p, any, &best))
+                return 0;
+            pop = true;
+        }
+        node = nodes - inside;
+    }
+}
+
+/* The number of the nearest shape, or -1. */
+RT__NOINLINE int rt__nearest_in_tree(const rt_scene *scene, const rt_ray *ray,
+                                     float t_max)
+{
+    return rt__search_rows(scene, ray, t_max, false);
+}
+
+RT__NOINLINE bool rt__any_in_tree(const rt_scene *scene, const rt_ray *ray, float t_max)
+{
+    return rt__search_rows(scene, ray, t_max, true) >= 0;
+}
+
+/* For who asks for one ray. Vectors raise exceptions that the chapters do not: traps off,
+ * and the flags put back. (The empty instructions keep the search in between.) */
+static int rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_max,
+                            bool any)
+{
+#ifdef RT__X86
+    const unsigned before = _mm_getcsr();
+    _mm_setcsr(before | 0x1f80u);
+#else
+    fenv_t before;
+    feholdexcept(&before);
+#endif
+    __asm__ volatile("" : "+r"(scene) : : "memory");
+    int number = any ? (rt__any_in_tree(scene, ray, t_max) ? 0 : -1)
+                     : rt__nearest_in_tree(scene, ray, t_max);
+    __asm__ volatile("" : "+r"(number) : : "memory");
+#ifdef RT__X86
+    _mm_setcsr(before);
+#else
+    fesetenv(&before);
+#endif
+    return number;
 }
 
 RT__INLINE rt_vec3 rt__lane(const rt__f3 *v, int lane)
@@ -5920,12 +6567,6 @@ RT__INLINE void rt__set_lane(rt__f3 *v, int lane, rt_vec3 to)
     v->z[lane] = to.z;
 }
 
-/* rt__search for one lane; number of a shape, or -1. */
-RT__NOINLINE int rt__search_boxes(const rt_scene *scene, const rt_ray *ray, bool any)
-{
-    return rt__search(scene, ray, any ? 1.0f : FLT_MAX, any, rt__enter_boxes);
-}
-
 /* rt_intersect, one ray after the other: for many shapes, and for lanes in doubt. A new
  * kind of shape that is rare would be asked here, too. */
 RT__NOINLINE void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
@@ -5938,7 +6579,7 @@ RT__NOINLINE void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
         rt_hit hit;
         ray.origin = rt__lane(origin, lane);
         ray.direction = rt__lane(direction, lane);
-        const int number = rt__search_boxes(scene, &ray, false);
+        const int number = rt__nearest_in_tree(scene, &ray, FLT_MAX);
         hits->kind[lane] = -1.0f;
         if (number < 0 || !rt__hit_shape(scene, number, &ray, 0.0, &hit))
             continue;
@@ -5963,7 +6604,7 @@ RT__NOINLINE rt__m rt__shade_in_tree(const rt_scene *scene, const rt__f3 *origin
         rt_ray ray;
         ray.origin = rt__lane(origin, lane);
         ray.direction = rt__lane(direction, lane);
-        if (rt__search_boxes(scene, &ray, true) >= 0)
+        if (rt__any_in_tree(scene, &ray, 1.0f))
             blocked[lane] = 1.0f;
     }
     return rt__less(rt__all(0.0f), blocked);

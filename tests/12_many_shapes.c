@@ -408,38 +408,80 @@ typedef struct tree_facts {
     int nodes, depth, shapes;
 } tree_facts;
 
+static void check_shape(const many *m, const rt__bounds *b, int number)
+{
+    if (number < m->scene.sphere_count) {
+        const rt_sphere *s = &m->spheres[number];
+        assert_contains(b, (double)s->center.x, (double)s->center.y, (double)s->center.z,
+                        (double)s->radius);
+    } else {
+        assert_holds(b, m->boxes[number - m->scene.sphere_count].min);
+        assert_holds(b, m->boxes[number - m->scene.sphere_count].max);
+    }
+}
+
+/* A copy of each shape is beside its number. */
+static void check_column(const many *m, const rt_bvh_row *rows, int k)
+{
+    const int number = rows->number[k];
+    const float p[3] = {rows[1].value[k], rows[2].value[k], rows[3].value[k]};
+    if (number < m->scene.sphere_count) {
+        assert_memory_equal(p, &m->spheres[number].center, sizeof p);
+        assert_true(rows[4].value[k] == m->spheres[number].radius);
+    } else {
+        const rt_box *box = &m->boxes[number - m->scene.sphere_count];
+        const float q[3] = {rows[4].value[k], rows[5].value[k], rows[6].value[k]};
+        assert_memory_equal(p, &box->min, sizeof p);
+        assert_memory_equal(q, &box->max, sizeof q);
+    }
+}
+
+static void check_leaf(const many *m, const rt__bounds *b, int leaf, tree_facts *facts)
+{
+    const rt_bvh_row *rows = &m->bvh.rows[leaf >> 2];
+    const int kind = leaf & 3;
+    assert_in_range(leaf >> 2, 0, m->bvh.row_count - 5);
+    assert_true(rows->number[0] >= 0);
+    for (int k = 0; k < 8; k++) {
+        const int number = rows->number[k];
+        if (number < 0) {
+            assert_int_equal(number, -1);
+            assert_true(isnan(rows[1].value[k]));
+            continue;
+        }
+        assert_true(k == 0 || rows->number[k - 1] >= 0);
+        assert_in_range(number, 0, m->scene.sphere_count + m->scene.box_count - 1);
+        assert_int_equal(kind, number < m->scene.sphere_count ? RT__SPHERES : RT__BOXES);
+        facts->seen[number]++;
+        facts->shapes++;
+        check_shape(m, b, number);
+        check_column(m, rows, k);
+    }
+}
+
 /* Every box contains what is in it. */
 static void check_node(const many *m, int number, int depth, tree_facts *facts)
 {
     const rt_bvh_node *node = &m->bvh.nodes[number];
     facts->nodes++;
     facts->depth = depth > facts->depth ? depth : facts->depth;
-    assert_in_range(node->count, 2, 8);
+    assert_int_equal((uintptr_t)node % 64, 0);
+    assert_in_range(node->count, depth == 1 ? 1 : 2, 8);
     for (int k = 0; k < node->count; k++) {
         const rt__bounds b = box_of(node, k);
         const int inside = node->inside[k];
-        if (inside < 0) {
-            assert_in_range(-inside, 1, m->bvh.node_count - 1);
-            const rt_bvh_node *below = &m->bvh.nodes[-inside];
-            for (int i = 0; i < below->count; i++) {
-                const rt__bounds inner = box_of(below, i);
-                assert_holds(&b, inner.min);
-                assert_holds(&b, inner.max);
-            }
-            check_node(m, -inside, depth + 1, facts);
+        if (inside >= 0) {
+            check_leaf(m, &b, inside, facts);
             continue;
         }
-        assert_in_range(inside, 0, m->scene.sphere_count + m->scene.box_count - 1);
-        facts->seen[inside]++;
-        facts->shapes++;
-        if (inside < m->scene.sphere_count) {
-            const rt_sphere *s = &m->spheres[inside];
-            assert_contains(&b, (double)s->center.x, (double)s->center.y,
-                            (double)s->center.z, (double)s->radius);
-        } else {
-            assert_holds(&b, m->boxes[inside - m->scene.sphere_count].min);
-            assert_holds(&b, m->boxes[inside - m->scene.sphere_count].max);
+        assert_in_range(-inside, 1, m->bvh.node_count - 1);
+        const rt_bvh_node *below = &m->bvh.nodes[-inside];
+        for (int i = 0; i < below->count; i++) {
+            const rt__bounds inner = box_of(below, i);
+            assert_holds(&b, inner.min);
+            assert_holds(&b, inner.max);
         }
+        check_node(m, -inside, depth + 1, facts);
     }
 }
 
@@ -453,7 +495,7 @@ static tree_facts check_tree(const many *m)
         assert_int_equal(facts.seen[i], 1);
     assert_int_equal(facts.shapes, count);
     assert_int_equal(facts.nodes, m->bvh.node_count);
-    assert_true(facts.nodes < count);
+    assert_true(facts.nodes == 1 || facts.nodes <= (count - 2) / 7);
     assert_int_equal(m->bvh.sphere_count, m->scene.sphere_count);
     assert_int_equal(m->bvh.box_count, m->scene.box_count);
     /* each node on the way down leaves at most seven boxes to look at later */
@@ -579,16 +621,25 @@ static rt_ray ray_in_the_room(rt_rng *rng)
                   random_direction(rng));
 }
 
-static long looked_at; /* nodes, and shapes whose box was met */
-
-static unsigned counting_enter(const rt_bvh_node *node, const rt_ray *ray,
-                               rt_vec3 inverse, float t_max, float *t)
+/* The nodes and shapes whose box begins before t on this ray: those a search must look at. */
+static long to_look_at(const many *m, const rt_ray *ray, float t_max, int number)
 {
+    const rt_bvh_node *node = &m->bvh.nodes[number];
+    const rt_vec3 inverse =
+        rt_vec(rt__inverse(ray->direction.x), rt__inverse(ray->direction.y),
+               rt__inverse(ray->direction.z));
+    float t[8];
     const unsigned met = rt__enter(node, ray, inverse, t_max, t);
-    looked_at++;
-    for (int k = 0; k < node->count; k++)
-        looked_at += node->inside[k] >= 0 && (met >> k & 1u) != 0;
-    return met;
+    long sum = 1;
+    for (int k = 0; k < node->count; k++) {
+        if ((met >> k & 1u) == 0)
+            continue;
+        if (node->inside[k] < 0)
+            sum += to_look_at(m, ray, t_max, -node->inside[k]);
+        for (int i = 0; i < 8 && node->inside[k] >= 0; i++)
+            sum += m->bvh.rows[node->inside[k] >> 2].number[i] >= 0;
+    }
+    return sum;
 }
 
 /* Per ray. */
@@ -597,10 +648,12 @@ static double work_of(const many *m, int rays)
     rt_rng rng = rt_rng_start(0, 0, 49);
     rt_scene tree = m->scene;
     tree.bvh = &m->bvh;
-    looked_at = 0;
+    long looked_at = 0;
     for (int i = 0; i < rays; i++) {
         const rt_ray ray = ray_in_the_room(&rng);
-        rt__search(&tree, &ray, FLT_MAX, false, counting_enter);
+        rt_hit hit;
+        const bool found = rt_intersect(&tree, &ray, &hit);
+        looked_at += to_look_at(m, &ray, found ? hit.t : FLT_MAX, 0);
     }
     return (double)looked_at / rays;
 }

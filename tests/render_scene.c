@@ -5,7 +5,6 @@
  *
  * The second prints millions of samples per second, on one thread, the best of three times.
  * The schema is in tests/references/scenes/SCHEMA.md. */
-#define RT_IMPLEMENTATION
 #include "scene_file.h"
 
 #include <time.h>

@@ -1,6 +1,5 @@
 /* What the tests share: cmocka, comparisons that reject NaN, random inputs, reference files.
- * Each test file is a program of its own and holds the whole of rt.h. Tests run in the
- * top folder of the project. */
+ * Each test file is a program of its own. Tests run in the top folder of the project. */
 #ifndef TEST_H
 #define TEST_H
 
@@ -14,7 +13,9 @@
 
 #include <cmocka.h>
 
+#ifndef LINKED /* with rt.o, as most are: rt.h takes long to compile */
 #define RT_IMPLEMENTATION
+#endif
 #include "../rt.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
@@ -80,7 +81,8 @@ static inline rt_ray ray_of(rt_vec3 origin, rt_vec3 direction)
 }
 
 /* A hit that no function has written to. */
-static const rt_hit untouched = {-7, {1, 2, 3}, {4, 5, 6}, NULL, -7};
+static const rt_hit untouched = {
+    .t = -7, .point = {1, 2, 3}, .normal = {4, 5, 6}, .shape = -7};
 
 #define assert_untouched(hit)                                                            \
     do {                                                                                 \
