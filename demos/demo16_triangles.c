@@ -8,40 +8,28 @@
 #define rt_hit_triangle hit_triangle /* in rt.h, too: see "Your own routines" there */
 #include "live.h"
 
-/* How the world looks along a ray: from its origin, and straight ahead is z. */
-typedef struct look {
-    rt_dvec3 origin;
-    int x, y, z; /* which axes these are; z the one along which u is longest */
-    double per_x, per_y,
-        t1; /* a step of 1 along z moves the ray so far; and is t1 long */
-} look;
-
-static look along(const rt_ray *ray)
+/* The corner as the ray sees it: from its origin, and straight ahead is z, the axis along which
+ * u is longest. A step of 1 along it is *step long. */
+static rt_dvec3 seen(const rt_ray *ray, rt_vec3 corner, double *step)
 {
-    const double u[3] = {(double)ray->direction.x, (double)ray->direction.y,
-                         (double)ray->direction.z};
-    const int xy = fabs(u[0]) >= fabs(u[1]) ? 0 : 1,
-              z = fabs(u[xy]) >= fabs(u[2]) ? xy : 2;
+    const rt_dvec3 v = rt_to_double(ray->direction);
+    const rt_dvec3 d = rt_dsub(rt_to_double(corner), rt_to_double(ray->origin));
+    const double u[3] = {v.x, v.y, v.z}, p[3] = {d.x, d.y, d.z};
+    const int longer = fabs(u[0]) >= fabs(u[1]) ? 0 : 1;
+    const int z = fabs(u[longer]) >= fabs(u[2]) ? longer : 2;
     const int x = (z + 1) % 3, y = (z + 2) % 3;
-    const double t1 = u[z] != 0 ? 1 / u[z] : 0;
-    return (look){rt_to_double(ray->origin), x, y, z, u[x] * t1, u[y] * t1, t1};
-}
-
-static rt_dvec3 seen(const look *l, rt_vec3 corner)
-{
-    const rt_dvec3 d = rt_dsub(rt_to_double(corner), l->origin);
-    const double p[3] = {d.x, d.y, d.z};
-    return rt_dvec(p[l->x] - l->per_x * p[l->z], p[l->y] - l->per_y * p[l->z], p[l->z]);
+    *step = u[z] != 0 ? 1 / u[z] : 0;
+    return rt_dvec(p[x] - u[x] * *step * p[z], p[y] - u[y] * *step * p[z], p[z]);
 }
 
 static bool hit_triangle(const rt_mesh *mesh, int triangle, const rt_ray *ray,
                          float t_max, rt_hit *hit)
 {
-    const look l = along(ray);
     rt_dvec3 corner[3], v[3];
+    double step;
     for (int k = 0; k < 3; k++) {
         corner[k] = rt_to_double(rt_corner(mesh, triangle, k));
-        v[k] = seen(&l, rt_corner(mesh, triangle, k));
+        v[k] = seen(ray, rt_corner(mesh, triangle, k), &step);
     }
     double w[3]; /* on which side of the edge across from a corner is the ray? */
     for (int k = 0; k < 3; k++) {
@@ -53,7 +41,7 @@ static bool hit_triangle(const rt_mesh *mesh, int triangle, const rt_ray *ray,
     const double sum = w[0] + w[1] + w[2];
     if ((left && right) || sum == 0)
         return false;
-    const double t = (w[0] * v[0].z + w[1] * v[1].z + w[2] * v[2].z) * l.t1 / sum;
+    const double t = (w[0] * v[0].z + w[1] * v[1].z + w[2] * v[2].z) * step / sum;
     const rt_dvec3 N = rt_dnormalize(
         rt_dcross(rt_dsub(corner[1], corner[0]), rt_dsub(corner[2], corner[0])));
     if (!((float)t > 0 && (float)t < t_max) || rt_ddot(N, N) == 0)

@@ -266,6 +266,36 @@ static void live_place(int thing, rt_vec3 middle)
         room_light.position = room_dim_light.position = room_lamp.center = middle;
 }
 
+/* Mesh or pedestal, if the ray meets one of them before t_max; or 0. The scene is not asked: it
+ * gets mesh and tree anew only before a picture, and other threads may be rendering one. */
+static int live_pick_mesh(int stage, const rt_ray *ray, float t_max)
+{
+    if (stage < STAGE_TRIANGLES)
+        return 0;
+    if (!room_model.positions)
+        room_make_teapot();
+    const float scale = room_model.scale;
+    const rt_vec3 at = room_mesh_place(stage - STAGE_TRIANGLES);
+    const rt_vec3 from = rt_scale(rt_sub(ray->origin, at), 1 / scale);
+    const rt_ray scaled = {rt_add(room_model.foot, from),
+                           rt_scale(ray->direction, 1 / scale)};
+    const rt_mesh mesh = {room_model.positions,
+                          room_model.indices,
+                          room_model.position_count,
+                          room_model.triangle_count,
+                          {{0, 0, 0}, false}};
+    const rt_scene alone = {.meshes = &mesh, .mesh_count = 1};
+    rt_hit hit;
+    int thing = 0;
+    if (rt_intersect(&alone, &scaled, &hit) && hit.t < t_max) {
+        t_max = hit.t;
+        thing = MESH;
+    }
+    if (stage == STAGE_OWN_SHAPE && room_pedestal.hit(&room_cylinder, ray, t_max, &hit))
+        thing = PEDESTAL;
+    return thing;
+}
+
 /* The thing under the point (x, y) of the film; 0: nothing that can be moved. */
 static int live_pick(int stage, const demo_view *view, float x, float y)
 {
@@ -273,23 +303,22 @@ static int live_pick(int stage, const demo_view *view, float x, float y)
     const rt_vec3 to_lamp = rt_sub(room_light.position, ray.origin);
     const float t = rt_dot(to_lamp, ray.direction); /* where the ray comes by the lamp */
     const float beside = rt_length(rt_sub(to_lamp, rt_scale(ray.direction, t)));
-    rt_hit hit;
-    rt_scene scene = *live_scene(stage);
-    scene.bvh = NULL; /* where it is one, it may yet be made anew */
-    const bool found = rt_intersect(&scene, &ray, &hit);
     const float size = stage >= STAGE_LAMPS ? room_lamp.radius : 2.0f;
-    if (stage > 1 && stage != STAGE_SKY && t > 0.0f && (!found || hit.t > t) &&
-        beside < size)
+    rt_hit hit = {.t = FLT_MAX};
+    rt_scene scene = *live_scene(stage);
+    scene.bvh = NULL;
+    scene.mesh_count = scene.custom_shape_count = 0;
+    const bool found = rt_intersect(&scene, &ray, &hit);
+    const int other = live_pick_mesh(stage, &ray, hit.t);
+    if (stage > 1 && stage != STAGE_SKY && t > 0.0f && beside < size && hit.t > t)
         return LAMP;
-    if (!found)
-        return 0;
-    return hit.material == &room_spheres[0].material                           ? BALL
-           : hit.material == &room_spheres[ROOM_MIRROR].material               ? MIRROR
-           : hit.material == &room_spheres[ROOM_GLASS].material                ? GLASS
-           : hit.material == &room_cube.material                               ? CUBE
-           : hit.material == &room_pedestal.material                           ? PEDESTAL
-           : scene.mesh_count > 0 && hit.material == &scene.meshes[0].material ? MESH
-                                                                               : 0;
+    if (other != 0 || !found)
+        return other;
+    return hit.material == &room_spheres[0].material             ? BALL
+           : hit.material == &room_spheres[ROOM_MIRROR].material ? MIRROR
+           : hit.material == &room_spheres[ROOM_GLASS].material  ? GLASS
+           : hit.material == &room_cube.material                 ? CUBE
+                                                                 : 0;
 }
 
 static float live_clamp(float x, float low, float high)
@@ -459,7 +488,7 @@ static void live_prepare(int stage)
     static live_state made[MESH_SCENES];
     if (stage < STAGE_TRIANGLES)
         return;
-    const int which = stage == STAGE_TRIANGLES ? ON_THE_FLOOR : ON_THE_PEDESTAL;
+    const int which = stage - STAGE_TRIANGLES;
     live_state now;
     live_save(&now);
     memset(&now.camera, 0, sizeof now.camera); /* may move */
@@ -500,6 +529,8 @@ static void live_print(demo_text *out)
     live_print_vec(out, "cube ", room_cube.min, " to ");
     live_print_vec(out, "", room_cube.max, ", ");
     live_print_vec(out, "lamp ", room_light.position, "\n");
+    live_print_vec(out, "mesh ", room_foot, ", ");
+    live_print_vec(out, "pedestal ", room_cylinder.base, "\n");
 }
 
 /* -------------------------------------------------------------------------------------
@@ -546,6 +577,22 @@ static void live_ball(live_lines *l, rt_vec3 O, float R)
     }
 }
 
+/* A box around the mesh, and one around the pedestal. */
+static void live_outline_mesh(live_lines *l, int which)
+{
+    rt_vec3 low = {FLT_MAX, FLT_MAX, FLT_MAX}, high = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    const rt_mesh *mesh = &room_meshes[which];
+    for (int i = 0; i < mesh->position_count; i++) {
+        const rt_vec3 p = mesh->positions[i];
+        low = rt_vec(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
+        high = rt_vec(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
+    }
+    if (mesh->position_count > 0)
+        live_box(l, low, high);
+    if (which == ON_THE_PEDESTAL)
+        live_box(l, room_pedestal.min, room_pedestal.max);
+}
+
 static int live_outlines(int stage, const demo_view *view, demo_line *lines, int most)
 {
     live_lines l = {lines, most, 0};
@@ -554,6 +601,8 @@ static int live_outlines(int stage, const demo_view *view, demo_line *lines, int
     live_ball(&l, room_spheres[0].center, room_spheres[0].radius);
     if (stage >= 3 && stage < STAGE_TRIANGLES)
         live_box(&l, room_cube.min, room_cube.max);
+    if (stage >= STAGE_TRIANGLES)
+        live_outline_mesh(&l, stage - STAGE_TRIANGLES);
     if (stage >= 6)
         live_ball(&l, room_spheres[ROOM_MIRROR].center, room_spheres[ROOM_MIRROR].radius);
     if (stage >= STAGE_GLASS)
@@ -660,6 +709,7 @@ static int live_path(int stage, const demo_view *view, const rt_options *options
     const rt_scene *scene = live_scene(stage);
     rt_options traced = live_options(stage, options);
     traced.bounces = stage < 6 ? 0 : view->bounces;
+    live_prepare(stage);
     if (rt_trace_pixel(scene, &room_camera, &traced, image, x, y, sample, &path) != RT_OK)
         return 0;
     if (stage < 4)
@@ -685,6 +735,7 @@ static rt_status live_explain(int stage, const rt_options *options, const rt_ima
     rt_path path = empty_path();
     rt_vec3 mean = {0, 0, 0};
     demo_text out;
+    live_prepare(stage);
     for (int k = 0; k < options->samples; k++) {
         const rt_status status = rt_trace_pixel(live_scene(stage), &room_camera, &traced,
                                                 image, x, y, k, &path);

@@ -182,11 +182,10 @@ static struct room_model {
     int position_count, triangle_count;
     rt_vec3 foot; /* the point of it that stands where room_foot is */
     float scale;
-} room_model = {.name = "the teapot", .scale = 4};
+} room_model = {.name = "the teapot", .scale = 5.5f};
 
-static MOVABLE rt_vec3 room_foot = {27, -20.4f,
-                                    -10}; /* on the floor; or so much higher: */
-static MOVABLE cylinder room_cylinder = {{27, -20.4f, -10}, 9, 9};
+static MOVABLE rt_vec3 room_foot = {30, -20.4f, 6}; /* on the floor */
+static MOVABLE cylinder room_cylinder = {{30, -20.4f, 6}, 10, 8};
 
 /* Both times in the room, as room_prepare makes them. */
 static rt_mesh room_meshes[MESH_SCENES];
@@ -196,10 +195,11 @@ static rt_bvh room_trees[MESH_SCENES];
 
 static MOVABLE rt_surface mesh_surfaces[ROOM_SHAPES] = {
     [ROOM_BALL] = {.shininess = 300},
+    [ROOM_FLOOR] = {.pattern = checker_pattern, .pattern_data = &room_tiles},
     [ROOM_MIRROR] = {.shininess = 60},
     [ROOM_GLASS] = {.eta = 1.5f},
-    [ROOM_MESH] = {.shininess = 400}, /* porcelain */
-    [ROOM_PEDESTAL] = {.pattern = marble_pattern},
+    [ROOM_MESH] = {.shininess = 400},     /* porcelain */
+    [ROOM_PEDESTAL] = {.shininess = 200}, /* polished wood */
 };
 
 static const rt_scene scene_triangles = {.spheres = room_spheres,
@@ -231,7 +231,7 @@ static inline void room_make_teapot(void)
     teapot_make(&pot);
     for (int i = 0; i < pot.position_count; i++) {
         const rt_vec3 p = positions[i];
-        positions[i] = rt_vec(0.8f * p.x - 0.6f * p.z, p.y, 0.6f * p.x + 0.8f * p.z);
+        positions[i] = rt_vec(0.6f * p.x - 0.8f * p.z, p.y, 0.8f * p.x + 0.6f * p.z);
     }
     room_model.positions = positions;
     room_model.indices = indices;
@@ -260,6 +260,13 @@ static inline void room_take_mesh(const rt_mesh *mesh)
     room_model.scale = (float)(22 / fmax(fmax(size.x, size.y), size.z));
 }
 
+/* Where its foot stands. */
+static inline rt_vec3 room_mesh_place(int which)
+{
+    const float up = which == ON_THE_PEDESTAL ? room_cylinder.height + 0.01f : 0.0f;
+    return rt_add(room_foot, rt_vec(0, up, 0));
+}
+
 /* Puts the mesh where it stands in one of the two scenes, and makes the tree anew: before the
  * first picture, and whenever something has moved. Without memory for that rt_render refuses the
  * scene. */
@@ -270,19 +277,22 @@ static inline void room_prepare(int which)
     if (!room_model.positions)
         room_make_teapot();
     const int count = room_model.position_count;
-    const float R = room_cylinder.radius, height = room_cylinder.height;
-    const rt_vec3 up = {0, which == ON_THE_PEDESTAL ? height + 0.01f : 0, 0};
+    const rt_vec3 to = room_mesh_place(which);
+    const float R = room_cylinder.radius;
     room_pedestal.min = rt_sub(room_cylinder.base, rt_vec(R, 0, R));
-    room_pedestal.max = rt_add(room_cylinder.base, rt_vec(R, height, R));
+    room_pedestal.max = rt_add(room_cylinder.base, rt_vec(R, room_cylinder.height, R));
     rt_free_bvh(&room_trees[which]);
-    if (!placed[which])
+    if (room_meshes[which].position_count != count) {
+        free(placed[which]);
         placed[which] = malloc((size_t)count * sizeof(rt_vec3));
+        room_meshes[which].position_count = 0;
+    }
     if (!placed[which])
         return;
-    for (int i = 0; i < count; i++)
-        placed[which][i] = rt_add(
-            rt_add(room_foot, up),
-            rt_scale(rt_sub(room_model.positions[i], room_model.foot), room_model.scale));
+    for (int i = 0; i < count; i++) {
+        const rt_vec3 p = rt_sub(room_model.positions[i], room_model.foot);
+        placed[which][i] = rt_add(to, rt_scale(p, room_model.scale));
+    }
     room_meshes[which] = (rt_mesh){.positions = placed[which],
                                    .indices = room_model.indices,
                                    .position_count = count,

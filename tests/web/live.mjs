@@ -13,7 +13,7 @@ const words = process.argv.slice(2).filter(word => word !== '--firefox');
 const timed = words[0] === '--timed' && words.shift() !== '';
 const pictures = words[0] === '--pictures' ? words.splice(0, 2)[1] : undefined;
 const pages = resolve(`${build}/web/pages`);
-const chapters = ['01', '02', '03', '04', '05', '06', '07', '08', '09', '10', '11', '12', '13', '14', '15'].map(n => `demo${n}`);
+const chapters = ['01', '02', '03', '04', '05', '06', '07', '08', '09', '10', '11', '12', '13', '14', '15', '16', '17'].map(n => `demo${n}`);
 
 // ---- a live picture ---------------------------------------------------------------------------
 
