@@ -9,6 +9,7 @@ trap 'rm -rf "$work"' EXIT
 export OMP_WAIT_POLICY=passive LC_ALL=C
 flags="-std=c99 -O2 -fno-math-errno -ffp-contract=off -w -I."
 openmp=$(.ci/deps openmp "$cc")
+libs="$(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) $(pkg-config --libs assimp 2>/dev/null) -lm"
 
 field() { # FILE NAME: from the comment at the top of a mistake, on one line
     awk -v name="$2" 'index($0, " * " name ":") == 1 { on = 1; sub(/^ \* [A-Z][a-z]*: */, ""); print; next }
@@ -27,7 +28,7 @@ render() { # NAME SUBMISSION OPTIONS
     *) show=show options="240 180 --samples 16 $3" ;;
     esac
     $cc $flags $static $openmp $(stage "$1") "-DSUBMISSION=\"$2\"" -o "$work/$1" tests/classroom/$show.c \
-        "$build/program.a" $(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) -lm &&
+        "$build/program.a" $libs &&
         "$work/$1" --no-window --quiet --out "$work/$1.png" $options
 }
 
