@@ -1259,7 +1259,8 @@ static void test_a_traced_path_says_which_triangle(void **state)
                 const rt_mesh *mesh = &meshes[hit.shape];
                 const rt_dvec3 w = rt_dvec(1 - (double)hit.u - (double)hit.v,
                                            (double)hit.u, (double)hit.v);
-                const rt_vec3 p = rt__blend(mesh, hit.part, w);
+                const rt__corners corners = rt__corners_of(mesh, hit.part);
+                const rt_vec3 p = rt__blend(&corners, w);
                 assert_vec(hit.point, p.x, p.y, p.z, 1e-5);
                 told++;
                 inside += hit.inside;
