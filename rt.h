@@ -2697,14 +2697,19 @@ static inline void rt__draw_in(const rt__corners *corners, rt_hit *hit)
     double longest = rt_ddot(ab, ab);
     longest = rt_ddot(ac, ac) > longest ? rt_ddot(ac, ac) : longest;
     longest = rt_ddot(bc, bc) > longest ? rt_ddot(bc, bc) : longest;
-    const double low = sqrt(rt_ddot(n, n) / longest); /* the least of its three heights */
-    const rt_vec3 step =
-        rt_sub(rt_leave(hit->point, hit->normal, hit->normal), hit->point);
-    double least = 4.0 * (double)rt_length(step) / low;
-    least = least < 0.1 ? least : 0.1;
     rt_dvec3 w =
         rt_dvec(1.0 - (double)hit->u - (double)hit->v, (double)hit->u, (double)hit->v);
-    if (w.x >= least && w.y >= least && w.z >= least)
+    const rt_vec3 step =
+        rt_sub(rt_leave(hit->point, hit->normal, hit->normal), hit->point);
+    const double steps = 16.0 * (double)rt_dot(step, step), nn = rt_ddot(n, n);
+    double smallest = w.x < w.y ? w.x : w.y;
+    smallest = smallest < w.z ? smallest : w.z;
+    if (smallest * smallest * nn >= steps * longest)
+        return;
+    /* the least of the three heights is |n| / the longest edge */
+    double least = sqrt(steps * longest / nn);
+    least = least < 0.1 ? least : 0.1;
+    if (smallest >= least)
         return;
     w = rt_dvec(w.x > least ? w.x : least, w.y > least ? w.y : least,
                 w.z > least ? w.z : least);
@@ -3953,13 +3958,10 @@ static inline int rt__bin_of(const rt__entry *entry, int axis, float low, float 
     return bin < RT__BINS ? bin : RT__BINS - 1;
 }
 
-#ifndef RT__PRICE
-#define RT__PRICE(n) (n)
-#endif
-/* What it costs to ask so many shapes. */
-static inline double rt__price(int count)
+/* How many leaves so many shapes make at least. */
+static inline double rt__leaves(int count)
 {
-    return (double)RT__PRICE(count);
+    return (double)((count + 7) / 8);
 }
 
 /* The first cut of the cheapest two, and in *one and *two what it makes. */
@@ -3975,8 +3977,8 @@ static inline int rt__cheapest_cut(const rt__bin *bins, rt__bin *one, rt__bin *t
     side = rt__no_bin();
     for (int k = 1; k < RT__BINS; k++) {
         rt__add_bin(&side, &bins[k - 1]);
-        const double cost = rt__area(&side.bounds) * rt__price(side.count) +
-                            rt__area(&after[k].bounds) * rt__price(after[k].count);
+        const double cost = rt__area(&side.bounds) * rt__leaves(side.count) +
+                            rt__area(&after[k].bounds) * rt__leaves(after[k].count);
         if (cost < best_cost) {
             best_cost = cost;
             best = k;
@@ -6306,7 +6308,7 @@ typedef struct rt__probe {
 /* Not all rays are fit: the squares of short and long directions are no good floats. And
  * the sums and products of those that are must not overflow, unless they are almost
  * parallel to an axis. */
-RT__INLINE bool rt__set_probe(rt__probe *p, const rt_ray *ray)
+RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray *ray)
 {
     const rt_vec3 o = ray->origin, u = ray->direction;
     if (!rt__within(o, -1e16f, 1e16f) || !rt__within(u, -1e10f, 1e10f) ||
@@ -6323,8 +6325,12 @@ RT__INLINE bool rt__set_probe(rt__probe *p, const rt_ray *ray)
     p->out_x = 24 - p->in_x;
     p->out_y = 40 - p->in_y;
     p->out_z = 56 - p->in_z;
-    p->over_a = 1.0f / rt_dot(u, u);
-    p->over_root = sqrtf(p->over_a);
+    if (scene->sphere_count > 0) {
+        p->over_a = 1.0f / rt_dot(u, u);
+        p->over_root = sqrtf(p->over_a);
+    }
+    if (scene->mesh_count == 0)
+        return true;
     p->shear = rt__shear_of(ray);
     const int axis = p->shear.axis;
     rt__put_vec(p->origin, rt_to_float(rt__turned(o, axis)));
@@ -6436,7 +6442,8 @@ RT__INLINE unsigned rt__near_triangles(const rt_bvh_row *row, const rt__probe *p
 /* The nearest shape so far, and in which column of which leaf. */
 typedef struct rt__found {
     rt__best best;
-    double t; /* before it was rounded */
+    double t;         /* before it was rounded */
+    rt_dvec3 weights; /* of a triangle */
     int leaf, column;
 } rt__found;
 
@@ -6474,7 +6481,8 @@ RT__INLINE rt__corners rt__column_corners(const rt_bvh_row *row, int column)
 
 /* rt__meet_shape, of what the leaf has of it. */
 RT__INLINE double rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, int kind,
-                                  int column, const rt__probe *p, float t_max)
+                                  int column, const rt__probe *p, float t_max,
+                                  rt_dvec3 *weights)
 {
     if (kind == RT__SPHERES) {
         const rt_sphere sphere = rt__column_sphere(row, column);
@@ -6482,8 +6490,7 @@ RT__INLINE double rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, 
     }
     if (kind == RT__TRIANGLES) {
         const rt__corners corners = rt__column_corners(row, column);
-        rt_dvec3 weights;
-        return rt__meet_corners(&p->shear, &corners, t_max, &weights);
+        return rt__meet_corners(&p->shear, &corners, t_max, weights);
     }
     const int number = row->number[column];
     if (number >= scene->sphere_count + scene->box_count)
@@ -6510,9 +6517,7 @@ RT__INLINE bool rt__hit_column(const rt_scene *scene, const rt__found *found,
     if (kind == RT__TRIANGLES) {
         const rt__corners corners = rt__column_corners(row, found->column);
         const rt__other other = rt__other_of(scene, number);
-        rt_dvec3 weights;
-        const double t = rt__meet_corners(&p->shear, &corners, FLT_MAX, &weights);
-        rt__hit_corners(&corners, &p->ray, t, weights, hit);
+        rt__hit_corners(&corners, &p->ray, found->t, found->weights, hit);
         hit->material = &scene->meshes[other.mesh].material;
         hit->shape = scene->sphere_count + scene->box_count + other.mesh;
         hit->part = other.part;
@@ -6547,11 +6552,14 @@ RT__INLINE bool rt__ask_rows(const rt_scene *scene, int leaf, const rt__probe *p
     for (; maybe != 0; maybe &= maybe - 1u) {
         const int k = rt__lowest(maybe), number = row->number[k];
         const float limit = any ? t_max : rt__beyond(found->best.t);
-        const double t = rt__meet_column(scene, row, kind, k, p, limit);
+        rt_dvec3 weights;
+        const double t = rt__meet_column(scene, row, kind, k, p, limit, &weights);
         if (any && t > 0.0)
             return true;
         if (rt__is_better(&found->best, number, (float)t)) {
             found->t = t;
+            if (kind == RT__TRIANGLES)
+                found->weights = weights;
             found->leaf = leaf;
             found->column = k;
             found->best.number = number;
@@ -6716,15 +6724,15 @@ RT__NOINLINE bool rt__nearest_in_tree(const rt_scene *scene, const rt_ray *ray,
                                       rt_hit *hit)
 {
     rt__probe p;
-    return rt__set_probe(&p, ray) ? rt__nearest_of(scene, &p, FLT_MAX, hit)
-                                  : rt__intersect_bvh(scene, ray, hit);
+    return rt__set_probe(&p, scene, ray) ? rt__nearest_of(scene, &p, FLT_MAX, hit)
+                                         : rt__intersect_bvh(scene, ray, hit);
 }
 
 RT__NOINLINE bool rt__any_in_tree(const rt_scene *scene, const rt_ray *ray)
 {
     rt__probe p;
-    return rt__set_probe(&p, ray) ? rt__any_of(scene, &p, 1.0f)
-                                  : rt__occluded_bvh(scene, ray, 1.0f);
+    return rt__set_probe(&p, scene, ray) ? rt__any_of(scene, &p, 1.0f)
+                                         : rt__occluded_bvh(scene, ray, 1.0f);
 }
 
 /* For who asks for one ray. Only rays that are almost parallel to an axis raise
@@ -6734,7 +6742,7 @@ static bool rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_m
                              rt_hit *hit)
 {
     rt__probe p;
-    if (!rt__set_probe(&p, ray)) {
+    if (!rt__set_probe(&p, scene, ray)) {
         const int number = rt__search(scene, ray, t_max, !hit);
         return number >= 0 && (!hit || rt__hit_shape(scene, number, ray, 0.0, hit));
     }
