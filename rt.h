@@ -3859,8 +3859,20 @@ static inline rt__bounds rt__other_bounds(const rt_scene *scene, rt__other p)
     return b;
 }
 
-/* A box around a shape, and a little more: its coordinates are rounded, and a ray in the
- * very plane of a face must enter it (for rt__inverse makes 0 of 0/0). */
+/* A box, and a little more: its coordinates are rounded, and a ray in the very plane of a
+ * face must enter it (for rt__inverse makes 0 of 0/0). */
+static inline rt__bounds rt__with_margin(rt__bounds b)
+{
+    const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
+                                 rt__max(b.min, rt_scale(b.min, -1.0f)));
+    const rt_vec3 margin =
+        rt_add(rt_scale(size, 2.0f * FLT_EPSILON), rt_vec(1e-15f, 1e-15f, 1e-15f));
+    b.min = rt_sub(b.min, margin);
+    b.max = rt_add(b.max, margin);
+    return b;
+}
+
+/* A box around a shape. */
 static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
 {
     rt__bounds b;
@@ -3877,13 +3889,7 @@ static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
         b.min = rt_sub(s->center, r);
         b.max = rt_add(s->center, r);
     }
-    const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
-                                 rt__max(b.min, rt_scale(b.min, -1.0f)));
-    const rt_vec3 margin =
-        rt_add(rt_scale(size, 2.0f * FLT_EPSILON), rt_vec(1e-15f, 1e-15f, 1e-15f));
-    b.min = rt_sub(b.min, margin);
-    b.max = rt_add(b.max, margin);
-    return b;
+    return rt__with_margin(b);
 }
 
 /* A shape that is to be put into the tree. */
@@ -4230,7 +4236,7 @@ static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int
 static inline void rt__set_order(rt_bvh_node *node)
 {
     for (int octant = 0; octant < 8; octant++) {
-        float place[8];
+        float place[8] = {0.0f};
         uint32_t order = 0;
         for (int k = 0; k < node->count; k++) {
             const float x = node->min_x[k] + node->max_x[k];
@@ -5490,16 +5496,17 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
 
 #if RT__LANES > 1
 /* So many shapes are asked one by one, without the tree: about there it takes as long. */
-enum { RT__FEW = 40 * RT__LANES };
+enum { RT__FEW = 40 * RT__LANES, RT__FEW_OTHERS = 16 };
 
 typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
 } rt__column;
 
-/* The shapes of a scene, column by column; spheres first, then boxes. */
+/* The shapes of a scene, column by column, by their number in rt_hit; of meshes and custom
+ * shapes the boxes around them, see rt__near_others. */
 struct rt__table {
-    bool few; /* else there is nothing here, and rays ask the tree */
-    int spheres, count;
+    bool few;                      /* else there is nothing here, and rays ask the tree */
+    int spheres, count, all;       /* up to count are spheres and boxes */
     rt__column place, max, albedo; /* place is the center or min */
     float kind[RT__FEW];           /* see rt__hits */
     float radius[RT__FEW];         /* 0: a box */
@@ -5515,14 +5522,33 @@ struct rt__table {
 
 #define RT__DOUBT 1.953125e-3f /* 2^-9, see rt__place */
 
+/* A box around mesh or custom shape number i. */
+static rt__bounds rt__around(const rt_scene *scene, int i)
+{
+    rt__bounds b = rt__no_bounds();
+    if (i >= scene->mesh_count) {
+        rt__loosen(&scene->custom_shapes[i - scene->mesh_count], &b.min, &b.max);
+        return rt__with_margin(b);
+    }
+    const rt_mesh *mesh = &scene->meshes[i];
+    for (int k = 0; k < mesh->position_count; k++) {
+        b.min = rt__min(b.min, mesh->positions[k]);
+        b.max = rt__max(b.max, mesh->positions[k]);
+    }
+    if (mesh->position_count == 0)
+        b.min = b.max = rt_vec(0.0f, 0.0f, 0.0f);
+    return rt__with_margin(b);
+}
+
 /* Few shapes, of numbers so moderate that squares are good floats, and no sphere so small
  * that rt_leave's step is on the other side of it? */
 static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
                         const rt_lens *lens)
 {
     const float most = 1e7f;
-    bool good = rt__primitive_count(scene) <= RT__FEW && scene->mesh_count == 0 &&
-                scene->custom_shape_count == 0 &&
+    const int64_t others = (int64_t)scene->mesh_count + scene->custom_shape_count;
+    bool good = others <= RT__FEW_OTHERS &&
+                (int64_t)scene->sphere_count + scene->box_count + others <= RT__FEW &&
                 rt__within(camera->position, -most, most) && lens->radius <= most;
     for (int i = 0; good && i < scene->sphere_count; i++) {
         const rt_sphere *s = &scene->spheres[i];
@@ -5532,6 +5558,10 @@ static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
     for (int i = 0; good && i < scene->box_count; i++)
         good = rt__within(scene->boxes[i].min, -most, most) &&
                rt__within(scene->boxes[i].max, -most, most);
+    for (int i = 0; good && i < (int)others; i++) {
+        const rt__bounds b = rt__around(scene, i);
+        good = rt__within(b.min, -most, most) && rt__within(b.max, -most, most);
+    }
     for (int i = 0; good && i < scene->light_count; i++)
         good = rt__within(scene->lights[i].position, -most, most);
     for (int i = 0; good && i < scene->lamp_count; i++) {
@@ -5570,11 +5600,9 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
     s->least_light = 1e30f;
     s->spheres = scene->sphere_count;
     s->count = s->spheres + scene->box_count;
-    for (int i = 0; i < s->count; i++) {
-        const rt_sphere *sphere = i < s->spheres ? &scene->spheres[i] : NULL;
-        const rt_box *box = sphere ? NULL : &scene->boxes[i - s->spheres];
-        const rt_material *material = sphere ? &sphere->material : &box->material;
-        rt__put(&s->place, i, sphere ? sphere->center : box->min);
+    s->all = rt__shape_count(scene);
+    for (int i = 0; i < s->all; i++) {
+        const rt_material *material = rt__material_of(scene, i);
         rt__put(&s->albedo, i, material->albedo);
         s->kind[i] = material->mirror ? 1.0f : 0.0f;
         if (scene->surfaces) {
@@ -5584,10 +5612,20 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
             rt__put(&s->absorption, i, surface->absorption);
             rt__put(&s->emission, i, surface->emission);
         }
-        if (box) {
-            rt__put(&s->max, i, box->max);
+        if (i >= s->spheres) {
+            rt__bounds b;
+            if (i < s->count) {
+                b.min = scene->boxes[i - s->spheres].min;
+                b.max = scene->boxes[i - s->spheres].max;
+            } else {
+                b = rt__around(scene, i - s->count);
+            }
+            rt__put(&s->place, i, b.min);
+            rt__put(&s->max, i, b.max);
             continue;
         }
+        const rt_sphere *sphere = &scene->spheres[i];
+        rt__put(&s->place, i, sphere->center);
         const rt_dvec3 o = rt_to_double(sphere->center);
         const double oo = rt_ddot(o, o), r = (double)sphere->radius;
         s->radius[i] = sphere->radius;
@@ -6206,6 +6244,24 @@ RT__NOINLINE rt__m rt__finish_boxes(const rt__table *s, const rt__f3 *origin,
 static void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
                              const rt__f3 *direction, unsigned lanes, rt__hits *hits);
 
+/* Meshes and custom shapes are asked by one ray after the other, in the tree. Which rays
+ * may meet one before t_max? Those that enter the box around it, or are parallel to a
+ * face. */
+RT__NOINLINE rt__m rt__near_others(const rt__table *s, const rt__f3 *origin,
+                                   const rt__f3 *direction, const rt__f *t_max)
+{
+    const rt__slab_rays r = rt__for_boxes(*origin, *direction);
+    const rt__f zero = rt__all(0.0f);
+    rt__m near_any = r.parallel;
+    for (int i = s->count; i < s->all; i++) {
+        rt__f t_in, t_out, doubt;
+        rt__slab(s, i, &r, &t_in, &t_out, &doubt);
+        near_any |= rt__no(rt__less(t_out + doubt, rt__fmax(t_in, zero)) |
+                           rt__less(*t_max + doubt, t_in));
+    }
+    return near_any;
+}
+
 /* rt_intersect of a scene with few shapes. */
 RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m lanes,
                          rt__hits *hits)
@@ -6237,11 +6293,14 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
                        rt__less(t * t * a, r * r * 8e9f) &
                        rt__less(rt__all(4e-6f), rt__abs(toward));
     rt__m ask = lanes & rt__no(missed | good);
-    if (!rt__any(ask))
-        return;
     const rt__m boxes = ask & rt__no(sphere);
     if (rt__any(boxes))
         ask &= rt__no(rt__finish_boxes(s, &p->origin, &u, boxes, &n.at, &limit, hits));
+    if (s->count < s->all) {
+        const rt__f t_max = rt__select(missed, rt__all(FLT_MAX), hits->t);
+        hits->inside = n.at & 0;
+        ask |= lanes & rt__near_others(s, &p->origin, &u, &t_max);
+    }
     if (rt__any(ask))
         rt__find_in_tree(job->scene, &p->origin, &u, rt__bits(ask), hits);
 }
@@ -6706,6 +6765,7 @@ RT__NOINLINE bool rt__nearest_of(const rt_scene *scene, const rt__probe *p, floa
 {
     rt__found found;
     found.best.number = -1;
+    found.weights = rt_dvec(0.0, 0.0, 0.0);
     found.best.t = t_max;
     return rt__search_rows(scene, p, false, &found) &&
            rt__hit_column(scene, &found, p, hit);
@@ -6905,6 +6965,9 @@ RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
         shade = rt__shade_all(job->table, p, u);
         shade.sure &= rt__no(behind);
         shade.may |= behind;
+        const rt__f end = rt__all(1.0f);
+        if (job->table->count < job->table->all)
+            shade.may |= rt__near_others(job->table, &p->origin, &u, &end);
     }
     const rt__m ask = lit & shade.may & rt__no(shade.sure);
     if (rt__any(ask))
@@ -7235,7 +7298,7 @@ RT__INLINE rt__f rt__of_surface(const rt__job *job, const float *column, size_t 
                                 rt__i shape, rt__m lanes)
 {
     return job->table->few
-               ? rt__pick(column, shape, job->table->count)
+               ? rt__pick(column, shape, job->table->all)
                : rt__gather(job->scene->surfaces, offset, shape, rt__bits(lanes));
 }
 
@@ -7299,7 +7362,7 @@ RT__NOINLINE rt__m rt__inside(const rt__job *job, const rt__hits *hits, rt__m la
     const rt__table *s = job->table;
     const rt__f zero = rt__all(0.0f);
     rt__f inside = zero;
-    if (s->few) {
+    if (s->few && s->count == s->all) {
         const rt__f3 place = rt__vpick(&s->place, hits->shape, s->count);
         const rt__f3 max = rt__vpick(&s->max, hits->shape, s->count);
         const rt__m sphere = rt__less(zero, rt__pick(s->radius, hits->shape, s->count));
@@ -8084,7 +8147,7 @@ static rt_status rt__run_packets(rt__job *job)
     job->table = &table;
     job->step = rt__is_part_two(scene) ? rt__step_packets_mis : rt__step_packets;
     job->together = RT__LANES * RT__FLIGHT;
-    job->ticks = table.few ? 64 : 1;
+    job->ticks = table.few && table.count == table.all ? 64 : 1;
     return rt__run(job);
 }
 
