@@ -889,8 +889,7 @@ static double sent(const rt_scene *scene, int from, int to, int count, double *a
     assert_true(mesh->triangle_count <= (int)COUNT(sums));
     *area = 0;
     for (int i = 0; i < mesh->triangle_count; i++) {
-        const rt__corners corners = rt__corners_of(mesh, i);
-        const rt_dvec3 n = rt__across(&corners);
+        const rt_dvec3 n = rt__across(mesh, i);
         sums[i] = *area += 0.5 * sqrt(rt_ddot(n, n));
     }
     double arrived = 0;
@@ -902,11 +901,10 @@ static double sent(const rt_scene *scene, int from, int to, int count, double *a
             t++;
         const float root = sqrtf(rt_random(&rng));
         const float v = root * rt_random(&rng);
-        const rt__corners corners = rt__corners_of(mesh, t);
         rt_hit hit = untouched;
         hit.point =
-            rt__blend(&corners, rt_dvec(1 - (double)root, (double)(root - v), (double)v));
-        hit.normal = rt_to_float(rt_dnormalize(rt__across(&corners)));
+            rt__blend(mesh, t, rt_dvec(1 - (double)root, (double)(root - v), (double)v));
+        hit.normal = rt_to_float(rt_dnormalize(rt__across(mesh, t)));
         const rt_vec3 d = way_on(mesh, &hit, hit.normal, 0, &rng);
         const rt_ray ray = ray_of(rt_leave(hit.point, hit.normal, d), d);
         arrived += rt_intersect(scene, &ray, &hit) && hit.shape == to;
@@ -1258,9 +1256,10 @@ static void test_a_traced_path_says_which_triangle(void **state)
                 assert_int_equal(v->hit.part, hit.part);
                 assert_true(v->hit.u == hit.u && v->hit.v == hit.v &&
                             v->hit.inside == hit.inside);
-                const rt__corners corners = rt__corners_of(&meshes[hit.shape], hit.part);
+                const rt_mesh *mesh = &meshes[hit.shape];
                 const rt_dvec3 w = rt_dvec(1 - (double)hit.u - (double)hit.v,
                                            (double)hit.u, (double)hit.v);
+                const rt__corners corners = rt__corners_of(mesh, hit.part);
                 const rt_vec3 p = rt__blend(&corners, w);
                 assert_vec(hit.point, p.x, p.y, p.z, 1e-5);
                 told++;
