@@ -185,67 +185,65 @@ static double program_seconds(void)
 static void *build(const candidate *c, const rt_scene *scene, int threads, double *best)
 {
     void *tree = c->open(scene, threads);
-    if (!tree)
-        return NULL;
     const double start = threads == 1 ? program_seconds() : seconds();
     c->build(tree);
     *best = fmin(*best, (threads == 1 ? program_seconds() : seconds()) - start);
     return tree;
 }
 
-static void ask(const candidate *c, void *tree, int kind, const ray_list *list,
-                float *answers, double *best)
-{
-    const double start = program_seconds();
-    (kind == SHADOW ? c->blocked : c->nearest)(tree, list->rays, list->count, answers);
-    *best = fmin(*best, program_seconds() - start);
-}
-
-/* Everybody in turns, and again for so many rounds. */
-static void measure(const char *name, const rt_scene *scene, const rt_camera *camera,
-                    float above, int shapes, int rounds)
+/* The trees stay only when all have been built for the last time: Embree has one team of threads
+ * for all of its devices. */
+static void build_in_turns(const rt_scene *scene, int rounds, void **trees,
+                           result *results)
 {
     const int processors = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    result results[CANDIDATES];
-    void *trees[CANDIDATES];
-    for (int c = 0; c < CANDIDATES; c++)
-        results[c] = (result){{1e30, 1e30}, {1e30, 1e30, 1e30}, 0, 0};
-    /* Trees stay only when all have been built for the last time: Embree has one team of
-     * threads for all of its devices. */
     for (int round = 0; round < (rounds < 3 ? rounds : 3); round++)
         for (int c = 0; c < CANDIDATES; c++)
             for (int all = 0; all < 2; all++) {
-                trees[c] = build(candidates[c], scene, all ? processors : 1,
-                                 &results[c].build[all]);
-                if (!trees[c])
-                    continue;
-                results[c].bytes = candidates[c]->bytes(trees[c]);
-                candidates[c]->close(trees[c]);
+                void *tree = build(candidates[c], scene, all ? processors : 1,
+                                   &results[c].build[all]);
+                results[c].bytes = candidates[c]->bytes(tree);
+                candidates[c]->close(tree);
             }
     for (int c = 0; c < CANDIDATES; c++)
         trees[c] = build(candidates[c], scene, processors, &results[c].build[1]);
+}
 
-    ray_list lists[KINDS];
-    const own_tree *first = trees[0];
-    make_rays(&first->scene, camera, above, lists);
-    float *expected = need(malloc(W * H * sizeof *expected));
+static void ask_in_turns(const ray_list *lists, int rounds, void **trees, result *results)
+{
+    float *expected = need(malloc(W * H * sizeof *expected)); /* rt.h's, it comes first */
     float *answers = need(malloc(W * H * sizeof *answers));
     for (int round = 0; round < rounds; round++)
         for (int kind = 0; kind < KINDS; kind++)
             for (int c = 0; c < CANDIDATES; c++) {
+                const candidate *one = candidates[c];
+                const ray_list *list = &lists[kind];
                 float *t = c == 0 ? expected : answers;
-                if (!trees[c])
-                    continue;
-                ask(candidates[c], trees[c], kind, &lists[kind], t,
-                    &results[c].took[kind]);
-                for (int i = 0; round == 0 && i < lists[kind].count; i++)
+                const double start = program_seconds();
+                (kind == SHADOW ? one->blocked : one->nearest)(trees[c], list->rays,
+                                                               list->count, t);
+                const double took = program_seconds() - start;
+                results[c].took[kind] = fmin(results[c].took[kind], took);
+                for (int i = 0; round == 0 && i < list->count; i++)
                     results[c].different += (t[i] < INFINITY) != (expected[i] < INFINITY);
             }
+    free(expected);
+    free(answers);
+}
 
+static void measure(const char *name, const rt_scene *scene, const rt_camera *camera,
+                    float above, int shapes, int rounds)
+{
+    result results[CANDIDATES];
+    void *trees[CANDIDATES];
+    ray_list lists[KINDS];
+    for (int c = 0; c < CANDIDATES; c++)
+        results[c] = (result){{1e30, 1e30}, {1e30, 1e30, 1e30}, 0, 0};
+    build_in_turns(scene, rounds, trees, results);
+    make_rays(&((own_tree *)trees[0])->scene, camera, above, lists);
+    ask_in_turns(lists, rounds, trees, results);
     for (int c = 0; c < CANDIDATES; c++) {
         const result *r = &results[c];
-        if (!trees[c])
-            continue;
         printf("%s\t%d\t%s", name, shapes, candidates[c]->name);
         for (int kind = 0; kind < KINDS; kind++)
             printf("\t%.4f", lists[kind].count / r->took[kind] / 1e6);
@@ -254,10 +252,8 @@ static void measure(const char *name, const rt_scene *scene, const rt_camera *ca
         fflush(stdout);
         candidates[c]->close(trees[c]);
     }
-    for (int k = 0; k < KINDS; k++)
-        free(lists[k].rays);
-    free(expected);
-    free(answers);
+    for (int kind = 0; kind < KINDS; kind++)
+        free(lists[kind].rays);
 }
 
 static const rt_light sun = {{2, 3, 1}, {1, 1, 1}};
@@ -293,7 +289,7 @@ int main(int argc, char **argv)
         const char *name = argc > 2 ? argv[i + 2] : all[i];
         const double spheres = atof(name);
         if (rounds < 1)
-            break;
+            return fprintf(stderr, "bench: no rounds\n"), 1;
         if (strcmp(name, "icosphere") == 0)
             measure_mesh(name, make_icosphere(8), rounds);
         else if (strcmp(name, "landscape") == 0)
@@ -305,5 +301,5 @@ int main(int argc, char **argv)
         else
             return fprintf(stderr, "bench: see the head of tests/bench/rays.c\n"), 1;
     }
-    return rounds < 1;
+    return 0;
 }
