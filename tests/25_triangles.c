@@ -1,7 +1,8 @@
 /* Chapter 16: triangles. */
 #define DEMO "../demos/demo16_triangles.c"
+#pragma push_macro("rt_hit_triangle") /* yours, if the file that you try has one */
 #include "test.h"
-#undef rt_hit_triangle /* below it is rt.h's again */
+#pragma pop_macro("rt_hit_triangle") /* below it is that, or rt.h's, and not the demo's */
 #include "exact.h"
 
 /* ---- exact: against numbers that are not rounded -------------------------------------- */
@@ -904,6 +905,7 @@ static double sent(const rt_scene *scene, int from, int to, int count, double *a
         const float v = root * rt_random(&rng);
         const rt__corners corners = rt__corners_of(mesh, t);
         rt_hit hit = untouched;
+        const rt__corners corners = rt__corners_of(mesh, t);
         hit.point =
             rt__blend(&corners, rt_dvec(1 - (double)root, (double)(root - v), (double)v));
         hit.normal = rt_to_float(rt_dnormalize(rt__across(&corners)));
