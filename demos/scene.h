@@ -12,7 +12,9 @@
 #define SCENE_H
 
 #include "../rt.h"
+#ifndef __cplusplus
 #include "patterns.h"
+#endif
 
 /* In the window things can be moved; live.h has no const here. */
 #ifndef MOVABLE
@@ -64,6 +66,8 @@ static const rt_scene scene_indirect = {.spheres = room_spheres,
                                         .box_count = 1,
                                         .lights = &room_dim_light,
                                         .light_count = 1};
+
+#ifndef __cplusplus /* which knows no [ROOM_BALL] = below, and needs no part two */
 
 /* Part two. Surfaces have the numbers of the shapes: the spheres above, then the cube. */
 enum {
@@ -163,4 +167,5 @@ static const rt_scene scene_patterns = {.spheres = room_spheres,
                                         .lamp_count = 1,
                                         .surfaces = pattern_surfaces};
 
+#endif /* __cplusplus */
 #endif
