@@ -23,6 +23,9 @@ STB      = $(shell .ci/deps stb '$(CC)')
 GFX      = $(shell pkg-config --exists SDL2_gfx 2>/dev/null && echo SDL2_gfx)
 SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 $(GFX) 2>/dev/null)) $(GFX:%=-DHAVE_GFX)
 SDL_LIBS = $(shell pkg-config --libs sdl2 $(GFX) 2>/dev/null)
+# assimp reads meshes from files for demos 16 and 17; they do without, too.
+ASSIMP   = $(shell pkg-config --exists assimp 2>/dev/null && echo -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp 2>/dev/null)))
+LIBS     = $(LDFLAGS) $(SDL_LIBS) $(shell pkg-config --libs assimp 2>/dev/null)
 CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 
 # Threads that wait should sleep: else, where other programs run, they take the core from
@@ -30,15 +33,15 @@ CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 export OMP_WAIT_POLICY ?= passive
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09 demo10 \
-           demo11 demo12 demo13 demo14 demo15
+           demo11 demo12 demo13 demo14 demo15 demo16 demo17
 HEADERS := rt.h $(wildcard demos/*.h)
-PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files progress window viewer)
+PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files load progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 .PHONY: help deps demos test golden check bench bench-rays docs web deps-web starters try grade install clean $(DEMOS)
 
 help: ## this list
-	@echo '  make demo01 ... demo15  build and run a chapter; ARGS="1280 960 --samples 64"'
+	@echo '  make demo01 ... demo17  build and run a chapter; ARGS="1280 960 --samples 64"'
 	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
@@ -62,7 +65,7 @@ $(DEMOS): %: $(BUILD)/%
 
 .SECONDEXPANSION:
 $(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/program.a $(HEADERS)
-	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/program.a $(LDFLAGS) $(SDL_LIBS) -lm
+	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/program.a $(LIBS) -lm
 
 $(BUILD)/program.a: $(PROGRAM)
 	@rm -f $@
@@ -71,7 +74,7 @@ $(BUILD)/program.a: $(PROGRAM)
 $(PROGRAM): $(BUILD)/%.o: demos/%.c $(HEADERS)
 	@.ci/deps found '$(CC)' sdl2 stb openmp SDL2_gfx
 	@mkdir -p $(BUILD)
-	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) -c -o $@ $<
+	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) $(ASSIMP) -c -o $@ $<
 
 # ---------------------------------------------------------------------------- the tests
 
@@ -102,7 +105,7 @@ starters: ## files to begin with, one for each routine, in build/starters
 
 try: $(BUILD)/program.a ## your own routine in place of rt.h's: FILE=my_hit_sphere.c
 	@.ci/deps found '$(CC)' cmocka libcjson
-	@CC='$(CC)' FLAGS='$(FLAGS) $(OPENMP)' LIBS='$(LDFLAGS) $(SDL_LIBS)' BUILD='$(BUILD)' \
+	@CC='$(CC)' FLAGS='$(FLAGS) $(OPENMP)' LIBS='$(LIBS)' BUILD='$(BUILD)' \
 	    tests/classroom/run try "$$FILE" $(ARGS)
 
 grade: ## marks for a file or a folder: FILE=submissions SEED=7 ONLY=rt_hit_sphere OUT=marks.csv
@@ -143,6 +146,7 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/sit
 	$(BUILD)/demo14 --no-window --quiet --samples 64 --out docs/images/demo14-64.png
 	$(BUILD)/demo15 --no-window --quiet --texture docs/images/demo09.png \
 	    --out docs/images/demo15-texture.png
+	docs/pictures.sh
 	@tests/check screenshots
 	docs/numbers.sh
 	docs/renew.sh README.md docs/*.md

@@ -27,7 +27,7 @@ void command_help(const demo *d)
            "                from chapter 10 it is, unless you say --no-denoise\n"
            "  --exposure EV brighter by so many stops, each twice the light; or darker, "
            "-1\n"
-           "%s"
+           "%s%s"
            "  --no-window   only render and write\n"
            "  --preview     draw the picture in the terminal, too, as it refines\n"
            "  --quiet       print nothing but errors\n"
@@ -38,7 +38,9 @@ void command_help(const demo *d)
            d->bounces == 0 ? "; this chapter has none yet" : "",
            d->render ? "as many as the machine can" : "1; this chapter has no more",
            d->sobol ? "sobol" : "random", d->name, d->name,
-           d->texture ? "  --texture FILE a picture for the ball, PNG or JPEG\n" : "");
+           d->texture ? "  --texture FILE a picture for the ball, PNG or JPEG\n" : "",
+           d->mesh ? "  --mesh FILE   your mesh for the teapot: OBJ, PLY, STL, glTF\n"
+                   : "");
 }
 
 /* Chapter 7 and later: paths of more than one bounce, by chance. */
@@ -186,6 +188,14 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
                 fprintf(stderr, "%s: --texture: %s\n", d->name,
                         s->texture ? "only chapter 15 can do that"
                                    : "a file name is missing");
+                return false;
+            }
+        } else if (strcmp(arg, "--mesh") == 0) {
+            s->mesh = argv[++i];
+            if (!s->mesh || !d->mesh) {
+                fprintf(stderr, "%s: --mesh: %s\n", d->name,
+                        s->mesh ? "only chapters 16 and 17 can do that"
+                                : "a file name is missing");
                 return false;
             }
         } else if (strcmp(arg, "--sampler") == 0) {

@@ -12,7 +12,7 @@ typedef struct settings {
     float error, seconds; /* 0: not wanted */
     float exposure;       /* in stops */
     rt_sampler sampler;
-    const char *out, *texture; /* files; NULL: none */
+    const char *out, *texture, *mesh; /* files; NULL: none */
     bool window, preview, quiet, help, explain, denoise;
     bool told_to_denoise; /* and not only by default */
     long x, y;            /* the pixel to explain */

@@ -44,6 +44,8 @@ typedef struct demo_live {
                         rt_image *image);
     rt_status (*draft)(int stage, const demo_view *view, const rt_options *options,
                        rt_image *image);
+    /* Before pixels of it are rendered in another way: what has moved finds its place. */
+    void (*prepare)(int stage);
     /* The byte for one channel of a pixel of that picture. */
     unsigned char (*encode)(int stage, float value);
     /* The camera: round the room, sideways, nearer by a factor; all as it was at first. */
@@ -97,6 +99,9 @@ typedef struct demo {
 
     /* NULL, or who gets the picture of --texture: linear, row by row from the top. It stays. */
     void (*texture)(const rt_vec3 *pixels, int width, int height);
+
+    /* NULL, or who gets the mesh of --mesh. It stays. */
+    void (*mesh)(const rt_mesh *mesh);
 
     /* The byte for one channel of a pixel: demo_linear, demo_gamma or the demo's own. */
     unsigned char (*encode)(float value);

@@ -1,12 +1,12 @@
 /* What happens in one pixel, in words: the paths of its samples, as rt_trace_pixel writes them
- * down. For demos 7 to 15, whose pixels are rt_radiance's or rt_radiance_mis's. */
+ * down. For demos 7 to 17, whose pixels are rt_radiance's or rt_radiance_mis's. */
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 
 #include "scene.h"
 #include "text.h"
 
-/* Spheres come first, and the last shape is the cube. */
+/* Spheres come first, then the cube, the mesh, the pedestal, whichever of them there are. */
 static const char *shape_name(const rt_scene *scene, int shape)
 {
     static const char *const names[] = {
@@ -14,7 +14,11 @@ static const char *shape_name(const rt_scene *scene, int shape)
         "the ceiling",   "the right wall", "the floor",
         "the back wall", "the mirror",     "the glass ball",
     };
-    return shape < scene->sphere_count ? names[shape + 1] : "the cube";
+    const int other = shape - scene->sphere_count;
+    return other < 0                                      ? names[shape + 1]
+           : other < scene->box_count                     ? "the cube"
+           : other < scene->box_count + scene->mesh_count ? room_model.name
+                                                          : "the pedestal";
 }
 
 /* How the path goes on, from glass also on which side of it. */
@@ -35,6 +39,15 @@ static void print_vec(demo_text *out, const char *before, rt_vec3 v, const char 
 {
     text_add(out, "%s(%.6g, %.6g, %.6g)%s", before, (double)v.x, (double)v.y, (double)v.z,
              after);
+}
+
+/* Where on it, if it is a mesh: the triangle and the parts of its corners. */
+static void print_place(demo_text *out, const rt_scene *scene, const rt_vertex *v)
+{
+    const int mesh = v->shape - scene->sphere_count - scene->box_count;
+    if (mesh >= 0 && mesh < scene->mesh_count)
+        text_add(out, ", triangle %d, u %.3f, v %.3f", v->hit.part, (double)v->hit.u,
+                 (double)v->hit.v);
 }
 
 /* What came of the question for a light. */
@@ -66,6 +79,7 @@ static void print_vertex(demo_text *out, const rt_scene *scene, const rt_path *p
     } else if (v->shape < 0) {
         print_vec(out, scene->sky ? ", sky " : ", background ", v->light, "");
     } else {
+        print_place(out, scene, v);
         text_add(out, " at t = %.6g\n", (double)v->hit.t);
         print_vec(out, "  |    P ", v->hit.point, "");
         print_vec(out, ", N ", v->hit.normal, "");

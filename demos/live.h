@@ -12,9 +12,9 @@
 static const rt_scene *live_scene(int stage)
 {
     static const rt_scene *const scenes[] = {
-        NULL,         &scene_sphere, &scene_walls,    &scene_cube,  &scene_cube,
-        &scene_cube,  &scene_mirror, &scene_indirect, &scene_glass, &scene_lamps,
-        &scene_gloss, &scene_sky,    &scene_patterns,
+        NULL,         &scene_sphere, &scene_walls,    &scene_cube,      &scene_cube,
+        &scene_cube,  &scene_mirror, &scene_indirect, &scene_glass,     &scene_lamps,
+        &scene_gloss, &scene_sky,    &scene_patterns, &scene_triangles, &scene_own_shape,
     };
     return scenes[stage];
 }
@@ -26,7 +26,9 @@ enum {
     STAGE_LAMPS,
     STAGE_GLOSS,
     STAGE_SKY,
-    STAGE_PATTERNS
+    STAGE_PATTERNS,
+    STAGE_TRIANGLES,
+    STAGE_OWN_SHAPE
 };
 
 /* What the stage wants besides what the reader does. */
@@ -41,6 +43,8 @@ static rt_options live_options(int stage, const rt_options *options)
 /* -------------------------------------------------------------------------------------
  * The stages
  * ------------------------------------------------------------------------------------- */
+
+static void live_prepare(int stage); /* below: where things are */
 
 typedef struct live_context {
     int stage;
@@ -78,6 +82,7 @@ static rt_status live_render(int stage, const demo_view *view, const rt_options 
 {
     const live_context context = {stage, view};
     const rt_options o = live_options(stage, options);
+    live_prepare(stage);
     if (stage >= STAGE_INDIRECT)
         return rt_render(live_scene(stage), &room_camera, &o, image);
     return rt_render_pixels(live_pixel, &context, options, image);
@@ -99,6 +104,7 @@ static rt_status live_draft(int stage, const demo_view *view, const rt_options *
         return live_render(stage, view, options, image);
     rt_options direct = live_options(stage, options);
     direct.bounces = stage >= STAGE_GLASS ? 3 : 0; /* through glass, and what is behind */
+    live_prepare(stage);
     const rt_status status = rt_render(live_scene(stage), &room_camera, &direct, image);
     demo_view mirrors = *view;
     mirrors.bounces = view->bounces > 0 ? view->bounces : 5;
@@ -199,16 +205,17 @@ static void live_zoom(float factor)
 }
 
 /* -------------------------------------------------------------------------------------
- * Things: the ball, the mirror, the cube, the lamp, the ball of glass
+ * Things: the ball, the mirror, the cube, the lamp, the ball of glass, the mesh, the pedestal
  * ------------------------------------------------------------------------------------- */
 
-enum { BALL = 1, MIRROR, CUBE, LAMP, GLASS, THINGS };
+enum { BALL = 1, MIRROR, CUBE, LAMP, GLASS, MESH, PEDESTAL, THINGS };
 
 static const char *live_name(int thing)
 {
-    static const char *const names[THINGS] = {"nothing",  "the ball", "the mirror",
-                                              "the cube", "the lamp", "the glass ball"};
-    return names[thing];
+    static const char *const names[THINGS] = {"nothing",  "the ball",    "the mirror",
+                                              "the cube", "the lamp",    "the glass ball",
+                                              "",         "the pedestal"};
+    return thing == MESH ? room_model.name : names[thing];
 }
 
 static rt_vec3 live_middle(int thing)
@@ -218,6 +225,8 @@ static rt_vec3 live_middle(int thing)
     case MIRROR: return room_spheres[ROOM_MIRROR].center;
     case GLASS: return room_spheres[ROOM_GLASS].center;
     case CUBE: return rt_scale(rt_add(room_cube.min, room_cube.max), 0.5f);
+    case MESH: return room_foot;
+    case PEDESTAL: return room_cylinder.base;
     default: return room_light.position;
     }
 }
@@ -230,6 +239,8 @@ static float live_reach(int thing)
     case MIRROR: return room_spheres[ROOM_MIRROR].radius;
     case GLASS: return room_spheres[ROOM_GLASS].radius;
     case CUBE: return 0.5f * (room_cube.max.x - room_cube.min.x);
+    case MESH: return 13;
+    case PEDESTAL: return room_cylinder.radius;
     default: return room_lamp.radius;
     }
 }
@@ -247,8 +258,42 @@ static void live_place(int thing, rt_vec3 middle)
         room_cube.min = rt_add(room_cube.min, by);
         room_cube.max = rt_add(room_cube.max, by);
     }
+    if (thing == MESH)
+        room_foot = middle;
+    if (thing == PEDESTAL)
+        room_cylinder.base = middle;
     if (thing == LAMP)
         room_light.position = room_dim_light.position = room_lamp.center = middle;
+}
+
+/* Mesh or pedestal, if the ray meets one of them before t_max; or 0. The scene is not asked: it
+ * gets mesh and tree anew only before a picture, and other threads may be rendering one. */
+static int live_pick_mesh(int stage, const rt_ray *ray, float t_max)
+{
+    if (stage < STAGE_TRIANGLES)
+        return 0;
+    if (!room_model.positions)
+        room_make_teapot();
+    const float scale = room_model.scale;
+    const rt_vec3 at = room_mesh_place(stage - STAGE_TRIANGLES);
+    const rt_vec3 from = rt_scale(rt_sub(ray->origin, at), 1 / scale);
+    const rt_ray scaled = {rt_add(room_model.foot, from),
+                           rt_scale(ray->direction, 1 / scale)};
+    const rt_mesh mesh = {room_model.positions,
+                          room_model.indices,
+                          room_model.position_count,
+                          room_model.triangle_count,
+                          {{0, 0, 0}, false}};
+    const rt_scene alone = {.meshes = &mesh, .mesh_count = 1};
+    rt_hit hit;
+    int thing = 0;
+    if (rt_intersect(&alone, &scaled, &hit) && hit.t < t_max) {
+        t_max = hit.t;
+        thing = MESH;
+    }
+    if (stage == STAGE_OWN_SHAPE && room_pedestal.hit(&room_cylinder, ray, t_max, &hit))
+        thing = PEDESTAL;
+    return thing;
 }
 
 /* The thing under the point (x, y) of the film; 0: nothing that can be moved. */
@@ -258,14 +303,17 @@ static int live_pick(int stage, const demo_view *view, float x, float y)
     const rt_vec3 to_lamp = rt_sub(room_light.position, ray.origin);
     const float t = rt_dot(to_lamp, ray.direction); /* where the ray comes by the lamp */
     const float beside = rt_length(rt_sub(to_lamp, rt_scale(ray.direction, t)));
-    rt_hit hit;
-    const bool found = rt_intersect(live_scene(stage), &ray, &hit);
     const float size = stage >= STAGE_LAMPS ? room_lamp.radius : 2.0f;
-    if (stage > 1 && stage != STAGE_SKY && t > 0.0f && (!found || hit.t > t) &&
-        beside < size)
+    rt_hit hit = {.t = FLT_MAX};
+    rt_scene scene = *live_scene(stage);
+    scene.bvh = NULL;
+    scene.mesh_count = scene.custom_shape_count = 0;
+    const bool found = rt_intersect(&scene, &ray, &hit);
+    const int other = live_pick_mesh(stage, &ray, hit.t);
+    if (stage > 1 && stage != STAGE_SKY && t > 0.0f && beside < size && hit.t > t)
         return LAMP;
-    if (!found)
-        return 0;
+    if (other != 0 || !found)
+        return other;
     return hit.material == &room_spheres[0].material             ? BALL
            : hit.material == &room_spheres[ROOM_MIRROR].material ? MIRROR
            : hit.material == &room_spheres[ROOM_GLASS].material  ? GLASS
@@ -293,8 +341,12 @@ static void live_drag(int thing, const demo_view *view, float right_pixels,
                                    rt_scale(up, size * up_pixels)));
     const float reach = live_reach(thing);
     middle.x = live_clamp(middle.x, -49 + reach, 49 - reach);
-    middle.y = live_clamp(middle.y, -20.8f + reach, 39 - reach);
+    /* of mesh and pedestal it is the middle of the foot */
+    const float below = thing >= MESH ? 0.4f : reach;
+    middle.y = live_clamp(middle.y, -20.8f + below, 39 - reach);
     middle.z = live_clamp(middle.z, -59 + reach, 90 - reach);
+    if (thing == PEDESTAL) /* with what stands on it */
+        live_place(MESH, rt_add(room_foot, rt_sub(middle, room_cylinder.base)));
     live_place(thing, middle);
 }
 
@@ -303,26 +355,28 @@ typedef struct live_number {
     const char *name;
     int first, last;
     float low, high, factor; /* for one notch of the wheel */
-    float *places[3];
+    float *places[4];
 } live_number;
 
 static const live_number live_numbers[THINGS] = {
     [BALL] = {"shininess",
               STAGE_GLOSS,
-              STAGE_PATTERNS,
+              STAGE_OWN_SHAPE,
               1,
               100000,
               1.4f,
               {&gloss_surfaces[ROOM_BALL].shininess,
-               &pattern_surfaces[ROOM_BALL].shininess}},
+               &pattern_surfaces[ROOM_BALL].shininess,
+               &mesh_surfaces[ROOM_BALL].shininess}},
     [MIRROR] = {"shininess",
                 STAGE_GLOSS,
-                STAGE_PATTERNS,
+                STAGE_OWN_SHAPE,
                 1,
                 100000,
                 1.4f,
                 {&gloss_surfaces[ROOM_MIRROR].shininess,
-                 &pattern_surfaces[ROOM_MIRROR].shininess}},
+                 &pattern_surfaces[ROOM_MIRROR].shininess,
+                 &mesh_surfaces[ROOM_MIRROR].shininess}},
     [CUBE] = {"refractive index",
               STAGE_GLASS,
               STAGE_SKY,
@@ -330,21 +384,35 @@ static const live_number live_numbers[THINGS] = {
               2.5f,
               1.02f,
               {&glass_surfaces[ROOM_CUBE].eta, &gloss_surfaces[ROOM_CUBE].eta}},
-    [LAMP] = {"radius", STAGE_LAMPS, STAGE_PATTERNS, 0.1f, 9, 1.1f, {&room_lamp.radius}},
+    [LAMP] = {"radius", STAGE_LAMPS, STAGE_OWN_SHAPE, 0.1f, 9, 1.1f, {&room_lamp.radius}},
     [GLASS] = {"refractive index",
                STAGE_GLASS,
-               STAGE_PATTERNS,
+               STAGE_OWN_SHAPE,
                1,
                2.5f,
                1.02f,
                {&glass_surfaces[ROOM_GLASS].eta, &gloss_surfaces[ROOM_GLASS].eta,
-                &pattern_surfaces[ROOM_GLASS].eta}},
+                &pattern_surfaces[ROOM_GLASS].eta, &mesh_surfaces[ROOM_GLASS].eta}},
+    [MESH] = {"shininess",
+              STAGE_TRIANGLES,
+              STAGE_OWN_SHAPE,
+              1,
+              100000,
+              1.4f,
+              {&mesh_surfaces[ROOM_MESH].shininess}},
+    [PEDESTAL] = {"height",
+                  STAGE_OWN_SHAPE,
+                  STAGE_OWN_SHAPE,
+                  1,
+                  30,
+                  1.1f,
+                  {&room_cylinder.height}},
 };
 
 static void live_set_number(int thing, float value)
 {
     const live_number *n = &live_numbers[thing];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         if (n->places[i])
             *n->places[i] = live_clamp(value, n->low, n->high);
 }
@@ -380,18 +448,23 @@ static void live_say(int stage, int thing, demo_text *out)
 /* All that moves. */
 typedef struct live_state {
     rt_camera camera;
-    rt_vec3 pivot, ball, mirror, lamp, glass;
+    rt_vec3 pivot;
+    rt_vec3 places[THINGS]; /* of the middles */
     rt_box cube;
     float numbers[THINGS];
 } live_state;
 
 static size_t live_save(void *to)
 {
-    live_state now = {
-        room_camera,       live_pivot,         live_middle(BALL), live_middle(MIRROR),
-        live_middle(LAMP), live_middle(GLASS), room_cube,         {0}};
-    for (int thing = BALL; thing < THINGS; thing++)
+    live_state now;
+    memset(&now, 0, sizeof now); /* the gaps, too */
+    now.camera = room_camera;
+    now.pivot = live_pivot;
+    now.cube = room_cube;
+    for (int thing = BALL; thing < THINGS; thing++) {
+        now.places[thing] = live_middle(thing);
         now.numbers[thing] = *live_numbers[thing].places[0];
+    }
     memcpy(to, &now, sizeof now);
     return sizeof now;
 }
@@ -402,13 +475,28 @@ static void live_load(const void *from)
     memcpy(&then, from, sizeof then);
     room_camera = then.camera;
     live_pivot = then.pivot;
-    room_cube = then.cube; /* not by its middle, which is rounded */
-    live_place(BALL, then.ball);
-    live_place(MIRROR, then.mirror);
-    live_place(LAMP, then.lamp);
-    live_place(GLASS, then.glass);
-    for (int thing = BALL; thing < THINGS; thing++)
+    for (int thing = BALL; thing < THINGS; thing++) {
+        live_place(thing, then.places[thing]);
         live_set_number(thing, then.numbers[thing]);
+    }
+    room_cube = then.cube; /* not by its middle, which is rounded */
+}
+
+/* The two scenes with a tree: it is made anew if anything has moved since. */
+static void live_prepare(int stage)
+{
+    static live_state made[MESH_SCENES];
+    if (stage < STAGE_TRIANGLES)
+        return;
+    const int which = stage - STAGE_TRIANGLES;
+    live_state now;
+    live_save(&now);
+    memset(&now.camera, 0, sizeof now.camera); /* may move */
+    now.pivot = rt_vec(0, 0, 0);
+    if (memcmp(&now, &made[which], sizeof now) == 0)
+        return;
+    made[which] = now;
+    room_prepare(which);
 }
 
 static void live_reset(void)
@@ -441,6 +529,8 @@ static void live_print(demo_text *out)
     live_print_vec(out, "cube ", room_cube.min, " to ");
     live_print_vec(out, "", room_cube.max, ", ");
     live_print_vec(out, "lamp ", room_light.position, "\n");
+    live_print_vec(out, "mesh ", room_foot, ", ");
+    live_print_vec(out, "pedestal ", room_cylinder.base, "\n");
 }
 
 /* -------------------------------------------------------------------------------------
@@ -487,14 +577,32 @@ static void live_ball(live_lines *l, rt_vec3 O, float R)
     }
 }
 
+/* A box around the mesh, and one around the pedestal. */
+static void live_outline_mesh(live_lines *l, int which)
+{
+    rt_vec3 low = {FLT_MAX, FLT_MAX, FLT_MAX}, high = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    const rt_mesh *mesh = &room_meshes[which];
+    for (int i = 0; i < mesh->position_count; i++) {
+        const rt_vec3 p = mesh->positions[i];
+        low = rt_vec(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
+        high = rt_vec(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
+    }
+    if (mesh->position_count > 0)
+        live_box(l, low, high);
+    if (which == ON_THE_PEDESTAL)
+        live_box(l, room_pedestal.min, room_pedestal.max);
+}
+
 static int live_outlines(int stage, const demo_view *view, demo_line *lines, int most)
 {
     live_lines l = {lines, most, 0};
     if (stage >= 2)
         live_box(&l, rt_vec(-50, -20, -60), rt_vec(50, 40, 60));
     live_ball(&l, room_spheres[0].center, room_spheres[0].radius);
-    if (stage >= 3)
+    if (stage >= 3 && stage < STAGE_TRIANGLES)
         live_box(&l, room_cube.min, room_cube.max);
+    if (stage >= STAGE_TRIANGLES)
+        live_outline_mesh(&l, stage - STAGE_TRIANGLES);
     if (stage >= 6)
         live_ball(&l, room_spheres[ROOM_MIRROR].center, room_spheres[ROOM_MIRROR].radius);
     if (stage >= STAGE_GLASS)
@@ -569,9 +677,11 @@ static void live_summary(const rt_scene *scene, const rt_path *path, demo_text *
                  v->lamp >= 0 ? "the lamp" : shape_name(scene, v->shape));
         if (v->lamp >= 0 && n > 0)
             text_add(out, " by chance, weight %.2f", (double)v->weight);
-        if (v->shape >= 0)
+        if (v->shape >= 0) {
+            print_place(out, scene, v);
             text_add(out, ", t %.4g, N (%.2f %.2f %.2f)", (double)v->hit.t, (double)N.x,
                      (double)N.y, (double)N.z);
+        }
         for (int i = 0; i < path->shadow_count; i++)
             if (path->shadows[i].vertex == n) {
                 const rt_shadow *s = &path->shadows[i];
@@ -599,6 +709,7 @@ static int live_path(int stage, const demo_view *view, const rt_options *options
     const rt_scene *scene = live_scene(stage);
     rt_options traced = live_options(stage, options);
     traced.bounces = stage < 6 ? 0 : view->bounces;
+    live_prepare(stage);
     if (rt_trace_pixel(scene, &room_camera, &traced, image, x, y, sample, &path) != RT_OK)
         return 0;
     if (stage < 4)
@@ -624,6 +735,7 @@ static rt_status live_explain(int stage, const rt_options *options, const rt_ima
     rt_path path = empty_path();
     rt_vec3 mean = {0, 0, 0};
     demo_text out;
+    live_prepare(stage);
     for (int k = 0; k < options->samples; k++) {
         const rt_status status = rt_trace_pixel(live_scene(stage), &room_camera, &traced,
                                                 image, x, y, k, &path);
@@ -644,6 +756,7 @@ static rt_status live_explain(int stage, const rt_options *options, const rt_ima
 static const demo_live live_room = {
     .render = live_render,
     .draft = live_draft,
+    .prepare = live_prepare,
     .encode = live_encode,
     .orbit = live_orbit,
     .pan = live_pan,

@@ -5,6 +5,7 @@
 #define _XOPEN_SOURCE 700 /* stat, sigaction */
 #include "command.h"
 #include "files.h"
+#include "load.h"
 #include "progress.h"
 #include "viewer.h"
 #include "window.h"
@@ -115,7 +116,8 @@ static bool keep_going(void *user, float part)
     }
     if (r->win) {
         window_poll(r->win, v);
-        attend(r);
+        if (!v->stop) /* else when it has stopped, and all is at its new place */
+            attend(r);
         if (!v->closed && !v->stop && window_is_due(r->win)) {
             if (viewer_is_denoised(v)) /* on all cores, so not while they render */
                 v->stop = true;
@@ -424,6 +426,22 @@ static bool wrap_texture(const demo *d, const char *path)
     return pixels != NULL;
 }
 
+/* So does the mesh. Where none can be read, the demo has one of its own. */
+static bool take_mesh(const demo *d, const char *path)
+{
+    rt_mesh mesh;
+    char who[80];
+    snprintf(who, sizeof who, "%s: --mesh", d->name);
+    if (load_lacks()) {
+        fprintf(stderr, "%s: %s\n", who, load_lacks());
+        return true;
+    }
+    if (!load_mesh(who, path, &mesh))
+        return false;
+    d->mesh(&mesh);
+    return true;
+}
+
 int demo_main(int argc, char **argv, const demo *d)
 {
     char out[64];
@@ -447,6 +465,8 @@ int demo_main(int argc, char **argv, const demo *d)
     if (!r.s.explain && !files_can_write(d->name, r.s.out))
         return FAILED;
     if (r.s.texture && !wrap_texture(d, r.s.texture))
+        return FAILED;
+    if (r.s.mesh && !take_mesh(d, r.s.mesh))
         return FAILED;
     say_what_is_not(&r);
     if (r.s.samples == 0 && r.s.error == 0.0f && r.s.seconds == 0.0f)

@@ -14,6 +14,10 @@
 #include "../rt.h"
 #ifndef __cplusplus
 #include "patterns.h"
+#include "shapes.h"
+#include "teapot.h"
+
+#include <stdlib.h>
 #endif
 
 /* In the window things can be moved; live.h has no const here. */
@@ -69,13 +73,16 @@ static const rt_scene scene_indirect = {.spheres = room_spheres,
 
 #ifndef __cplusplus /* which knows no [ROOM_BALL] = below, and needs no part two */
 
-/* Part two. Surfaces have the numbers of the shapes: the spheres above, then the cube. */
+/* Part two. Surfaces have the numbers of the shapes: the spheres above, then the cube; or in its
+ * place the mesh, and then the pedestal. */
 enum {
     ROOM_BALL = 0,
     ROOM_FLOOR = 4,
     ROOM_MIRROR = 6,
     ROOM_GLASS,
     ROOM_CUBE,
+    ROOM_MESH = ROOM_CUBE,
+    ROOM_PEDESTAL,
     ROOM_SHAPES
 };
 
@@ -166,6 +173,137 @@ static const rt_scene scene_patterns = {.spheres = room_spheres,
                                         .lamps = &room_lamp,
                                         .lamp_count = 1,
                                         .surfaces = pattern_surfaces};
+
+/* ---- chapters 16 and 17: a mesh, on the floor and on a pedestal ------------------------- */
+
+enum { ON_THE_FLOOR, ON_THE_PEDESTAL, MESH_SCENES };
+
+/* The mesh as it came, NULL: the teapot, and how it gets into the room. */
+static struct room_model {
+    const char *name;
+    const rt_vec3 *positions;
+    const int *indices;
+    int position_count, triangle_count;
+    rt_vec3 foot; /* the point of it that stands where room_foot is */
+    float scale;
+} room_model = {.name = "the teapot", .scale = 5.5f};
+
+static MOVABLE rt_vec3 room_foot = {30, -20.4f, 6}; /* on the floor */
+static MOVABLE cylinder room_cylinder = {{30, -20.4f, 6}, 10, 8};
+
+/* Both times in the room, as room_prepare makes them. */
+static rt_mesh room_meshes[MESH_SCENES];
+static rt_custom_shape room_pedestal = {
+    .material = {{0.5f, 0.5f, 0.5f}, false}, .hit = cylinder_hit, .data = &room_cylinder};
+static rt_bvh room_trees[MESH_SCENES];
+
+static MOVABLE rt_surface mesh_surfaces[ROOM_SHAPES] = {
+    [ROOM_BALL] = {.shininess = 300},
+    [ROOM_FLOOR] = {.pattern = checker_pattern, .pattern_data = &room_tiles},
+    [ROOM_MIRROR] = {.shininess = 60},
+    [ROOM_GLASS] = {.eta = 1.5f},
+    [ROOM_MESH] = {.shininess = 400},     /* porcelain */
+    [ROOM_PEDESTAL] = {.shininess = 200}, /* polished wood */
+};
+
+static const rt_scene scene_triangles = {.spheres = room_spheres,
+                                         .sphere_count = 8,
+                                         .bvh = &room_trees[ON_THE_FLOOR],
+                                         .lamps = &room_lamp,
+                                         .lamp_count = 1,
+                                         .surfaces = mesh_surfaces,
+                                         .meshes = &room_meshes[ON_THE_FLOOR],
+                                         .mesh_count = 1};
+
+static const rt_scene scene_own_shape = {.spheres = room_spheres,
+                                         .sphere_count = 8,
+                                         .bvh = &room_trees[ON_THE_PEDESTAL],
+                                         .lamps = &room_lamp,
+                                         .lamp_count = 1,
+                                         .surfaces = mesh_surfaces,
+                                         .meshes = &room_meshes[ON_THE_PEDESTAL],
+                                         .mesh_count = 1,
+                                         .custom_shapes = &room_pedestal,
+                                         .custom_shape_count = 1};
+
+/* The teapot, turned a little. */
+static inline void room_make_teapot(void)
+{
+    static rt_vec3 positions[TEAPOT_POSITIONS];
+    static int indices[3 * TEAPOT_TRIANGLES];
+    teapot pot = {positions, indices, 0, 0};
+    teapot_make(&pot);
+    for (int i = 0; i < pot.position_count; i++) {
+        const rt_vec3 p = positions[i];
+        positions[i] = rt_vec(0.6f * p.x - 0.8f * p.z, p.y, 0.8f * p.x + 0.6f * p.z);
+    }
+    room_model.positions = positions;
+    room_model.indices = indices;
+    room_model.position_count = pot.position_count;
+    room_model.triangle_count = pot.triangle_count;
+}
+
+/* A mesh in place of the teapot, as large as it: its lowest point comes onto the floor, or onto the
+ * pedestal. The arrays must stay. */
+static inline void room_take_mesh(const rt_mesh *mesh)
+{
+    rt_dvec3 low = {DBL_MAX, DBL_MAX, DBL_MAX}, high = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
+    for (int i = 0; i < mesh->position_count; i++) {
+        const rt_dvec3 p = rt_to_double(mesh->positions[i]);
+        low = rt_dvec(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+        high = rt_dvec(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+    }
+    const rt_dvec3 size = rt_dsub(high, low);
+    room_model.name = "the mesh";
+    room_model.positions = mesh->positions;
+    room_model.indices = mesh->indices;
+    room_model.position_count = mesh->position_count;
+    room_model.triangle_count = mesh->triangle_count;
+    room_model.foot =
+        rt_to_float(rt_dvec(0.5 * (low.x + high.x), low.y, 0.5 * (low.z + high.z)));
+    room_model.scale = (float)(22 / fmax(fmax(size.x, size.y), size.z));
+}
+
+/* Where its foot stands. */
+static inline rt_vec3 room_mesh_place(int which)
+{
+    const float up = which == ON_THE_PEDESTAL ? room_cylinder.height + 0.01f : 0.0f;
+    return rt_add(room_foot, rt_vec(0, up, 0));
+}
+
+/* Puts the mesh where it stands in one of the two scenes, and makes the tree anew: before the
+ * first picture, and whenever something has moved. Without memory for that rt_render refuses the
+ * scene. */
+static inline void room_prepare(int which)
+{
+    static rt_vec3 *placed[MESH_SCENES];
+    const rt_scene *scenes[MESH_SCENES] = {&scene_triangles, &scene_own_shape};
+    if (!room_model.positions)
+        room_make_teapot();
+    const int count = room_model.position_count;
+    const rt_vec3 to = room_mesh_place(which);
+    const float R = room_cylinder.radius;
+    room_pedestal.min = rt_sub(room_cylinder.base, rt_vec(R, 0, R));
+    room_pedestal.max = rt_add(room_cylinder.base, rt_vec(R, room_cylinder.height, R));
+    rt_free_bvh(&room_trees[which]);
+    if (room_meshes[which].position_count != count) {
+        free(placed[which]);
+        placed[which] = malloc((size_t)count * sizeof(rt_vec3));
+        room_meshes[which].position_count = 0;
+    }
+    if (!placed[which])
+        return;
+    for (int i = 0; i < count; i++) {
+        const rt_vec3 p = rt_sub(room_model.positions[i], room_model.foot);
+        placed[which][i] = rt_add(to, rt_scale(p, room_model.scale));
+    }
+    room_meshes[which] = (rt_mesh){.positions = placed[which],
+                                   .indices = room_model.indices,
+                                   .position_count = count,
+                                   .triangle_count = room_model.triangle_count,
+                                   .material = {{0.88f, 0.87f, 0.84f}, false}};
+    rt_build_bvh(scenes[which], &room_trees[which]);
+}
 
 #endif /* __cplusplus */
 #endif

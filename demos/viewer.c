@@ -147,6 +147,8 @@ static rt_status render_own(const viewer *v, const demo_view *view,
                             const rt_options *options, rt_image *image)
 {
     const own_pixel own = {v->d, view};
+    if (v->d->live)
+        v->d->live->prepare(v->d->stage);
     return v->d->render ? v->d->render(options, image)
                         : rt_render_pixels(call_pixel, &own, options, image);
 }
@@ -685,8 +687,9 @@ int viewer_chapter(int stage)
 const char *viewer_stage_name(int stage)
 {
     static const char *const names[VIEWER_STAGES] = {
-        "sphere",         "walls", "cube",  "shadows", "gamma",        "mirror",
-        "indirect light", "glass", "lamps", "gloss",   "lens and sky", "patterns"};
+        "sphere",       "walls",          "cube",      "shadows",       "gamma",
+        "mirror",       "indirect light", "glass",     "lamps",         "gloss",
+        "lens and sky", "patterns",       "triangles", "your own shape"};
     return names[stage - 1];
 }
 

@@ -7,8 +7,8 @@
 
 #include "demo.h"
 
-/* The pictures: chapter 1 to 7, then those of part two, 11 to 15. */
-enum { VIEWER_INDIRECT = 7, VIEWER_STAGES = 12 };
+/* The pictures: chapter 1 to 7, then those of part two, 11 to 17. */
+enum { VIEWER_INDIRECT = 7, VIEWER_STAGES = 14 };
 
 /* What to compare with. */
 typedef enum viewer_comparison {

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "../demos/scene.h"
+#include "meshes.h"
 #include "scene_file.h"
 #include "test.h"
 #endif
@@ -506,14 +507,19 @@ static void test_a_ray_that_grazes_a_mirror(void **state)
 
 /* ---- random scenes, and odd ones ---------------------------------------------------- */
 
-enum { MOST = 120 };
+enum { MOST = 120, CORNERS = 200, TRIANGLES = 400, MESHES = 20, OWN = 30 };
 
 /* The shapes of a random scene; scale is the unit of length. */
 typedef struct odd_scene {
     rt_sphere spheres[MOST];
     rt_box boxes[MOST];
     rt_light lights[3];
-    rt_surface surfaces[2 * MOST];
+    rt_vec3 positions[CORNERS];
+    int indices[3 * TRIANGLES];
+    rt_mesh meshes[MESHES];
+    rt_custom_shape own[OWN];
+    rt_sphere own_balls[OWN];
+    rt_surface surfaces[2 * MOST + MESHES + OWN];
     rt_lamp lamps[4];
     picture p;
     float scale;
@@ -846,7 +852,7 @@ static void add_part_two(odd_scene *s)
     rt_rng *rng = s->rng;
     picture *p = &s->p;
     const int what = 1 + below(rng, 15);
-    for (int i = 0; i < 2 * MOST; i++)
+    for (int i = 0; i < 2 * MOST + MESHES + OWN; i++)
         s->surfaces[i] = odd_surface(s);
     if ((what & 1) != 0)
         p->scene.surfaces = s->surfaces;
@@ -939,6 +945,162 @@ static void test_a_room_of_part_two(void **state)
         compare(&p, "a room of part two", i);
     }
     assert_true(bright - before >= 28);
+}
+
+/* A sphere as a shape of one's own, and a flat disc, y = its middle's. */
+static bool hit_own_ball(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
+{
+    const rt_sphere *sphere = data;
+    if (!rt_hit_sphere(sphere, ray, t_max, hit))
+        return false;
+    hit->normal = rt_sub(hit->point, sphere->center);
+    return true;
+}
+
+static bool hit_own_disc(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
+{
+    const rt_sphere *s = data;
+    const double u = (double)ray->direction.y;
+    const double t = u != 0 ? ((double)s->center.y - (double)ray->origin.y) / u : -1;
+    if (!(t > 0 && t < (double)t_max))
+        return false;
+    hit->t = (float)t;
+    hit->point =
+        rt_to_float(rt_dmad(rt_to_double(ray->origin), t, rt_to_double(ray->direction)));
+    hit->point.y = s->center.y;
+    hit->normal = rt_vec(0, 3, 0);
+    return rt_length(rt_sub(hit->point, s->center)) <= s->radius;
+}
+
+/* Meshes of few or many triangles, which touch, coincide, or have no area; most are of corners
+ * that are all over the scene, some are small and closed. And shapes of one's own. Of these two
+ * kinds there are few, as in most scenes, or as many as there is room for. */
+static void add_meshes_and_own_shapes(odd_scene *s)
+{
+    rt_rng *rng = s->rng;
+    rt_scene *scene = &s->p.scene;
+    const int style = below(rng, 3);
+    const bool many = chance(rng, 0.3f);
+    for (int i = 0; i < CORNERS; i++)
+        s->positions[i] =
+            i % 4 == 3 && chance(rng, 0.5f) ? s->positions[i - 1] : place(s, style);
+    for (int i = 0; i < 3 * TRIANGLES; i++)
+        s->indices[i] = below(rng, CORNERS);
+    const rt_vec3 at = place(s, style); /* four of the corners are a tetrahedron */
+    const float size = length_of(s, style);
+    const int faces[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
+    for (int k = 0; k < 4; k++)
+        s->positions[k] = rt_add(
+            at, rt_scale(rt_vec(k < 2 ? 1 : -1, k % 2 ? -1 : 1, k % 3 ? -1 : 1), size));
+    memcpy(s->indices, faces, sizeof faces);
+    scene->meshes = s->meshes;
+    scene->mesh_count = chance(rng, 0.2f) ? 0 : 1 + below(rng, many ? MESHES : 3);
+    for (int i = 0, first = 0; i < scene->mesh_count; i++) {
+        const int left = TRIANGLES - first;
+        int count = i == 0 ? 4 : below(rng, many ? 40 : 9);
+        if (i == 1 && chance(rng, 0.2f))
+            count = left;
+        s->meshes[i].triangle_count = count < left ? count : left;
+        s->meshes[i].positions = s->positions;
+        s->meshes[i].position_count = CORNERS;
+        s->meshes[i].indices = s->indices + 3 * first;
+        s->meshes[i].material = material(s);
+        first += s->meshes[i].triangle_count;
+    }
+    scene->custom_shapes = s->own;
+    scene->custom_shape_count = chance(rng, 0.3f) ? 0 : below(rng, many ? OWN : 4);
+    for (int i = 0; i < scene->custom_shape_count; i++) {
+        const bool flat = chance(rng, 0.3f);
+        rt_sphere *ball = &s->own_balls[i];
+        ball->center = chance(rng, 0.3f) ? at : place(s, style);
+        ball->radius = length_of(s, style);
+        const float r = ball->radius;
+        s->own[i].min = rt_sub(ball->center, rt_vec(r, flat ? 0 : r, r));
+        s->own[i].max = rt_add(ball->center, rt_vec(r, flat ? 0 : r, r));
+        s->own[i].material = material(s);
+        s->own[i].hit = flat ? hit_own_disc : hit_own_ball;
+        s->own[i].data = ball;
+    }
+}
+
+static void test_odd_scenes_with_meshes_and_own_shapes(void **state)
+{
+    /* With and without spheres and boxes, and what else part two has. */
+    (void)state;
+    static odd_scene s;
+    const int before = bright;
+    enum { SCENES = 3000 };
+    int compared = 0;
+    for (int i = 0; i < SCENES; i++) {
+        rt_rng rng = rt_rng_start((uint32_t)i, 0, 68);
+        make_odd_scene(&s, &rng);
+        if (i % 3 == 0)
+            s.p.scene.sphere_count = s.p.scene.box_count = 0;
+        add_meshes_and_own_shapes(&s);
+        if (i % 4 > 0)
+            add_part_two(&s);
+        if (rt_check_scene(&s.p.scene, NULL) != RT_OK)
+            continue;
+        compare(&s.p, "odd scene with meshes and own shapes", i);
+        compared++;
+    }
+    print_message("%d odd scenes with meshes and own shapes, %d of them not black\n",
+                  compared, bright - before);
+    assert_true(compared > SCENES * 9 / 10);
+    assert_true(bright - before > SCENES / 3);
+}
+
+static void test_a_room_with_a_mesh(void **state)
+{
+    /* A sphere of triangles, a ring, and a ball of one's own in the room: each matt, of glass and
+     * of gloss, with a pattern, by lamps and by points of light. */
+    (void)state;
+    static rt_surface surfaces[6 + 2 + 1];
+    const float scale = 9;
+    const rt_lamp lamp = {{-4, 26, 19}, 6, {3380, 3380, 3380}, {0, 0, 0}, {0, 0, 0}};
+    const rt_sphere ball = {{-20, -10, 20}, 9, grey(1)};
+    const rt_custom_shape own = {
+        {-29, -19, 11}, {-11, -1, 29}, grey(0.6f), hit_own_ball, &ball};
+    rt_mesh meshes[2] = {make_icosphere(3), make_ring(12, 4, 40, 20)};
+    place_mesh(&meshes[0], rt_vec(10, -8, 15), 11, 0);
+    place_mesh(&meshes[1], rt_vec(-10, -15, -10), 1, 0);
+    const int before = bright;
+    for (int i = 0; i < 48; i++) {
+        rt_scene scene = {.spheres = room_spheres,
+                          .sphere_count = 6,
+                          .lights = &room_dim_light,
+                          .light_count = i % 2,
+                          .surfaces = i % 3 ? surfaces : NULL,
+                          .lamps = &lamp,
+                          .lamp_count = 1 - i % 2,
+                          .meshes = meshes,
+                          .mesh_count = 1 + i / 2 % 2,
+                          .custom_shapes = &own,
+                          .custom_shape_count = i / 4 % 2};
+        memset(surfaces, 0, sizeof surfaces);
+        for (int k = 6; k < 9; k++) {
+            const int kind = (i / 3 + k) % 4;
+            surfaces[k].eta = kind == 1 ? 1.5f : 0;
+            surfaces[k].shininess = kind == 2 ? 60 : 0;
+            surfaces[k].pattern = kind == 3 ? checked : NULL;
+            surfaces[k].pattern_data = &scale;
+            surfaces[k].absorption = rt_vec(0.05f, 0, 0.1f);
+        }
+        meshes[0].material = grey(0.9f);
+        meshes[0].material.mirror = i % 5 == 0;
+        picture p = picture_of(&scene, &room_camera);
+        p.width = 37;
+        p.height = 23;
+        p.guides = i % 3 == 0;
+        p.options.bounces = i % 9;
+        p.options.sampler = i % 7 < 5 ? RT_SOBOL : RT_RANDOM;
+        p.options.lens.radius = i % 8 == 0 ? 2 : 0;
+        p.options.lens.focus = 100;
+        compare(&p, "a room with a mesh", i);
+    }
+    assert_true(bright - before >= 45);
+    free_mesh(&meshes[0]);
+    free_mesh(&meshes[1]);
 }
 
 static void test_guides_behind_dark_mirrors(void **state)
@@ -1086,6 +1248,8 @@ int main(void)
         cmocka_unit_test(test_odd_scenes),
         cmocka_unit_test(test_odd_scenes_of_part_two),
         cmocka_unit_test(test_a_room_of_part_two),
+        cmocka_unit_test(test_odd_scenes_with_meshes_and_own_shapes),
+        cmocka_unit_test(test_a_room_with_a_mesh),
         cmocka_unit_test(test_guides_behind_dark_mirrors),
         cmocka_unit_test(test_random_scenes),
         cmocka_unit_test(test_huge_scenes),

@@ -220,6 +220,55 @@ static inline bool is_sponge(int x, int y, int z)
     return true;
 }
 
+/* ---- turned on a lathe, and a ring ------------------------------------------------------ */
+
+/* A profile of radius and height, turned round the axis y, from the bottom up; it begins and ends
+ * on the axis, with radius 0. rings >= 3, columns >= 3; 2 (rings - 2) columns triangles. */
+static inline rt_mesh make_lathe(const double (*profile)[2], int rings, int columns)
+{
+    growing_mesh m = new_mesh(2 + (rings - 2) * columns, 2 * (rings - 2) * columns);
+    const int bottom = add_corner(&m, 0, profile[0][1], 0);
+    const int top = add_corner(&m, 0, profile[rings - 1][1], 0);
+    for (int r = 1; r < rings - 1; r++)
+        for (int c = 0; c < columns; c++) {
+            const double turn = 2 * 3.14159265358979 * c / columns;
+            add_corner(&m, profile[r][0] * cos(turn), profile[r][1],
+                       -profile[r][0] * sin(turn));
+        }
+    const int last = 2 + (rings - 3) * columns;
+    for (int c = 0; c < columns; c++) {
+        const int next = (c + 1) % columns;
+        add_triangle(&m, bottom, 2 + next, 2 + c);
+        for (int low = 2; low < last; low += columns) {
+            add_triangle(&m, low + c, low + next, low + columns + next);
+            add_triangle(&m, low + c, low + columns + next, low + columns + c);
+        }
+        add_triangle(&m, last + c, last + next, top);
+    }
+    return finished_mesh(m);
+}
+
+/* A ring that lies flat, of this radius, and half its thickness. */
+static inline rt_mesh make_ring(double radius, double half, int columns, int rows)
+{
+    const double pi = 3.14159265358979;
+    growing_mesh m = new_mesh(columns * rows, 2 * columns * rows);
+    for (int c = 0; c < columns; c++)
+        for (int r = 0; r < rows; r++) {
+            const double turn = 2 * pi * c / columns, up = 2 * pi * r / rows;
+            const double out = radius + half * cos(up);
+            add_corner(&m, out * cos(turn), half * sin(up), -out * sin(turn));
+        }
+    for (int c = 0; c < columns; c++)
+        for (int r = 0; r < rows; r++) {
+            const int a = c * rows + r, b = c * rows + (r + 1) % rows;
+            const int on = (c + 1) % columns * rows, d = on + r, e = on + (r + 1) % rows;
+            add_triangle(&m, a, d, e);
+            add_triangle(&m, a, e, b);
+        }
+    return finished_mesh(m);
+}
+
 /* ---- a landscape ---------------------------------------------------------------------- */
 
 /* n^2 squares from -1 to 1: waves of all lengths, each half as long as the last. */

@@ -10,8 +10,8 @@ const DRAFT = 1, REST = 2; /* as viewer_task */
 const BEFORE = 0, ONE_SAMPLE = 1, BY_RT_H = 2, OTHER_NUMBERS = 3, NOISY = 4; /* as viewer_comparison */
 const KEYS = {ArrowLeft: 256, ArrowRight: 257, ArrowUp: 258, ArrowDown: 259, PageUp: 260, PageDown: 261};
 const PART = 4096; /* pixels, as in page.c */
-const THINGS = ['the camera', 'the ball', 'the mirror', 'the cube', 'the lamp', 'the glass ball'];
-const STAGES = [1, 2, 3, 4, 5, 6, 7], ALL_STAGES = [...STAGES, 8, 9, 10, 11, 12]; /* 8 on: part two, see viewer.h */
+const THINGS = ['the camera', 'the ball', 'the mirror', 'the cube', 'the lamp', 'the glass ball', 'the teapot', 'the pedestal'];
+const STAGES = [1, 2, 3, 4, 5, 6, 7], ALL_STAGES = [...STAGES, 8, 9, 10, 11, 12, 13, 14]; /* 8 on: part two, see viewer.h */
 
 /* What each chapter has of its own. */
 const chapters = {
@@ -30,6 +30,8 @@ const chapters = {
     demo13: {compare: NOISY, controls: ['samples', 'bounces', 'denoise']},
     demo14: {compare: NOISY, controls: ['samples', 'exposure', 'denoise']},
     demo15: {compare: NOISY, controls: ['all_stages', 'samples', 'exposure', 'denoise']},
+    demo16: {compare: NOISY, controls: ['samples', 'bounces', 'denoise']},
+    demo17: {compare: NOISY, controls: ['all_stages', 'samples', 'exposure', 'denoise']},
 };
 
 async function bring_to_life(root, name, encoded) {
@@ -604,7 +606,7 @@ async function bring_to_life(root, name, encoded) {
         controls.thing = () => { /* those that the stage has */
             const stage = ex.page_stage();
             if (stage !== listed)
-                list.replaceChildren(...things.filter((_, i) => i < 2 || (i === 2 && stage >= 6) || (i === 3 && stage >= 3) || (i === 4 && stage >= 2) || (i === 5 && stage >= 8)));
+                list.replaceChildren(...things.filter((_, i) => i < 2 || (i === 2 && stage >= 6) || (i === 3 && stage >= 3 && stage < 13) || (i === 4 && stage >= 2) || (i === 5 && stage >= 8) || (i === 6 && stage >= 13) || (i === 7 && stage >= 14)));
             listed = stage;
             list.value = thing;
             thing = +list.value;

@@ -30,17 +30,33 @@ static bool cramer_twice(const rt_mesh *mesh, int triangle, const rt_ray *ray,
     return cramer_double(mesh, triangle, ray, 0, hit) && hit->t < t_max;
 }
 
+static bool sheared_in_float(const rt_mesh *mesh, int triangle, const rt_ray *ray,
+                             float t_max, rt_hit *hit)
+{
+    return sheared_float(mesh, triangle, ray, true, t_max, hit);
+}
+
+static bool sheared_outside(const rt_mesh *mesh, int triangle, const rt_ray *ray,
+                            float t_max, rt_hit *hit)
+{
+    return sheared_double(mesh, triangle, ray, false, t_max, hit);
+}
+
 int main(void)
 {
-    triangle_function *const ways[] = {cramer_epsilon, cramer_0, cramer_twice,
-                                       sheared_float, rt_hit_triangle};
+    triangle_function *const ways[] = {cramer_epsilon,  cramer_0,
+                                       cramer_twice,    sheared_in_float,
+                                       sheared_outside, rt_hit_triangle};
     enum { WAYS = sizeof ways / sizeof *ways };
     static const char *const names[WAYS] = {
         "Möller and Trumbore, float, less than 1e-6 is parallel",
-        "Möller and Trumbore, float", "Möller and Trumbore, double", "sheared, float",
+        "Möller and Trumbore, float",
+        "Möller and Trumbore, double",
+        "sheared, float",
+        "sheared, double, but 0 is outside",
         "sheared, double: ours"};
-    static const char *const keys[WAYS] = {"epsilon", "float", "double", "sheared",
-                                           "ours"};
+    static const char *const keys[WAYS] = {"epsilon", "float",   "double",
+                                           "sheared", "outside", "ours"};
     exact_count counts[WAYS] = {{0, 0, 0, 0}};
     exact_rays asked = {0, 0};
     for (int k = 0; k < EXACT_MESHES; k++) {

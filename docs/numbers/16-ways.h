@@ -42,9 +42,9 @@ static inline bool NAME(cramer)(const rt_mesh *mesh, int triangle, const rt_ray 
     return u >= 0 && u <= 1 && v >= 0 && u + v <= 1 && t > epsilon;
 }
 
-/* As the chapter has it. */
+/* As the chapter has it, if 0 is inside. */
 static inline bool NAME(sheared)(const rt_mesh *mesh, int triangle, const rt_ray *ray,
-                                 float t_max, rt_hit *hit)
+                                 bool zero_is_inside, float t_max, rt_hit *hit)
 {
     const rt_dvec3 u = rt__turned(ray->direction, rt__shear_of(ray).axis);
     const REAL z = 1 / (REAL)u.z, x = (REAL)u.x * z, y = (REAL)u.y * z;
@@ -61,6 +61,8 @@ static inline bool NAME(sheared)(const rt_mesh *mesh, int triangle, const rt_ray
     const REAL w_b = c[0].x * c[2].y - c[0].y * c[2].x;
     const REAL w_c = c[1].x * c[0].y - c[1].y * c[0].x, sum = w_a + w_b + w_c;
     if ((w_a < 0 || w_b < 0 || w_c < 0) && (w_a > 0 || w_b > 0 || w_c > 0))
+        return false;
+    if (!zero_is_inside && (w_a == 0 || w_b == 0 || w_c == 0))
         return false;
     hit->t = (float)((w_a * c[0].z + w_b * c[1].z + w_c * c[2].z) * z / sum);
     return sum != 0 && hit->t > 0 && hit->t < t_max;

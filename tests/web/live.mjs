@@ -13,7 +13,7 @@ const words = process.argv.slice(2).filter(word => word !== '--firefox');
 const timed = words[0] === '--timed' && words.shift() !== '';
 const pictures = words[0] === '--pictures' ? words.splice(0, 2)[1] : undefined;
 const pages = resolve(`${build}/web/pages`);
-const chapters = ['01', '02', '03', '04', '05', '06', '07', '08', '09', '10', '11', '12', '13', '14', '15'].map(n => `demo${n}`);
+const chapters = ['01', '02', '03', '04', '05', '06', '07', '08', '09', '10', '11', '12', '13', '14', '15', '16', '17'].map(n => `demo${n}`);
 
 // ---- a live picture ---------------------------------------------------------------------------
 
@@ -359,7 +359,7 @@ tests['chapter 10: d and g change the finished picture, and back'] = async () =>
 tests['part two: its pictures, on keys and to choose'] = async () => {
     const page = await open('demo15');
     await done(page, true);
-    for (const [stage, demo] of [[8, 'demo11'], [9, 'demo12'], [10, 'demo13'], [11, 'demo14']]) {
+    for (const [stage, demo] of [[8, 'demo11'], [9, 'demo12'], [10, 'demo13'], [11, 'demo14'], [13, 'demo16'], [14, 'demo17']]) {
         await page.click(`.stages label:nth-of-type(${stage})`);
         await become(page, await nativeHash(page, demo, '--samples', '64'), demo);
     }

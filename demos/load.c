@@ -1,0 +1,275 @@
+/* Meshes from files: see load.h. A file may be anything, and the library is large: so another
+ * process reads it, with so much memory and time, and what it hands over is checked once more. */
+#define _DEFAULT_SOURCE
+#define _DARWIN_C_SOURCE
+#define _XOPEN_SOURCE 700 /* fork, stat, strcasecmp */
+#include "load.h"
+
+#ifndef HAVE_ASSIMP
+
+const char *load_lacks(void)
+{
+    return "compiled without assimp, which reads meshes (apt-get install libassimp-dev, "
+           "dnf install assimp-devel, pacman or brew: assimp; then make -B)";
+}
+
+bool load_mesh(const char *who, const char *path, rt_mesh *mesh)
+{
+    (void)who, (void)path, (void)mesh;
+    return false;
+}
+
+#else
+
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+/* At most; more would be too much for this program, or a mistake. */
+enum {
+    BYTES = 500000000, /* of the file */
+    MEMORY_GB = 4,     /* for reading it */
+    SECONDS = 60,
+    TRIANGLES = 20000000,
+    CORNERS = 1000 /* of a polygon: cutting it into triangles takes their square */
+};
+
+/* What the other process hands over; then come positions and indices. */
+typedef struct head {
+    char why[200]; /* "": all is well */
+    int position_count, triangle_count;
+} head;
+
+static const char no_triangles[] = "there are no triangles in it";
+static const char no_such_corner[] = "a triangle has a corner that there is not";
+
+const char *load_lacks(void)
+{
+    return NULL;
+}
+
+/* -------------------------------------------------------------------------------------
+ * The other process
+ * ------------------------------------------------------------------------------------- */
+
+/* Not more memory, nor time, than that. (The sanitizers need any amount for themselves.) */
+static void set_limits(void)
+{
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    const struct rlimit memory = {(rlim_t)MEMORY_GB << 30, (rlim_t)MEMORY_GB << 30};
+    setrlimit(RLIMIT_AS, &memory);
+#endif
+    const struct rlimit no_core = {0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    signal(SIGALRM, SIG_DFL);
+    alarm(SECONDS);
+}
+
+/* NULL, or what assimp should not work on. */
+static const char *fault_of(const struct aiScene *scene)
+{
+    bool some = false;
+    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
+        const struct aiMesh *mesh = scene->mMeshes[m];
+        for (unsigned f = 0; f < mesh->mNumFaces; f++) {
+            some = some || mesh->mFaces[f].mNumIndices > 2;
+            if (mesh->mFaces[f].mNumIndices > CORNERS)
+                return "a polygon has more than 1000 corners";
+            for (unsigned k = 0; k < mesh->mFaces[f].mNumIndices; k++)
+                if (mesh->mFaces[f].mIndices[k] >= mesh->mNumVertices)
+                    return no_such_corner;
+        }
+    }
+    return some ? NULL : no_triangles;
+}
+
+/* The file, in triangles, its parts where they belong, corners that are the same only once. */
+static const struct aiScene *import(const char *path, char *why, size_t size)
+{
+    struct aiPropertyStore *wishes = aiCreatePropertyStore();
+    aiSetImportPropertyInteger(
+        wishes, AI_CONFIG_PP_RVC_FLAGS,
+        aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+            aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+            aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS);
+    const struct aiScene *scene = aiImportFileExWithProperties(path, 0, NULL, wishes);
+    const char *bad = scene ? fault_of(scene) : NULL;
+    if (bad) {
+        snprintf(why, size, "%s", bad);
+        return NULL;
+    }
+    if (scene)
+        scene = aiApplyPostProcessing(
+            scene, aiProcess_RemoveComponent | aiProcess_Triangulate |
+                       aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);
+    if (!scene) {
+        snprintf(why, size, "%s", aiGetErrorString());
+        for (char *c = why; *c; c++) /* one line */
+            if ((unsigned char)*c < 32)
+                *c = ' ';
+    }
+    return scene;
+}
+
+static bool is_triangle(const struct aiFace *face)
+{
+    return face->mNumIndices == 3; /* others are points and lines */
+}
+
+static void hand_over(const char *path, FILE *to)
+{
+    head h = {.why = ""};
+    const struct aiScene *scene = import(path, h.why, sizeof h.why);
+    uint64_t positions = 0, triangles = 0;
+    for (unsigned m = 0; scene && m < scene->mNumMeshes; m++) {
+        positions += scene->mMeshes[m]->mNumVertices;
+        for (unsigned f = 0; f < scene->mMeshes[m]->mNumFaces; f++)
+            triangles += is_triangle(&scene->mMeshes[m]->mFaces[f]);
+    }
+    if (scene && triangles == 0)
+        snprintf(h.why, sizeof h.why, "%s", no_triangles);
+    else if (triangles > TRIANGLES || positions > 3 * (uint64_t)TRIANGLES)
+        snprintf(h.why, sizeof h.why, "more than %d triangles", TRIANGLES);
+    h.position_count = *h.why ? 0 : (int)positions;
+    h.triangle_count = *h.why ? 0 : (int)triangles;
+    fwrite(&h, sizeof h, 1, to);
+    for (unsigned m = 0; !*h.why && m < scene->mNumMeshes; m++)
+        for (unsigned i = 0; i < scene->mMeshes[m]->mNumVertices; i++) {
+            const struct aiVector3D p = scene->mMeshes[m]->mVertices[i];
+            const float xyz[3] = {(float)p.x, (float)p.y, (float)p.z};
+            fwrite(xyz, sizeof xyz, 1, to);
+        }
+    unsigned first = 0;
+    for (unsigned m = 0; !*h.why && m < scene->mNumMeshes; m++) {
+        for (unsigned f = 0; f < scene->mMeshes[m]->mNumFaces; f++) {
+            const struct aiFace *face = &scene->mMeshes[m]->mFaces[f];
+            for (unsigned k = 0; k < 3 && is_triangle(face); k++) {
+                const int index = (int)(first + face->mIndices[k]);
+                fwrite(&index, sizeof index, 1, to);
+            }
+        }
+        first += scene->mMeshes[m]->mNumVertices;
+    }
+}
+
+/* How it ended. */
+static int read_elsewhere(const char *path, FILE *file)
+{
+    int status = -1;
+    const pid_t child = fork();
+    if (child == 0) {
+        set_limits();
+        if (!freopen("/dev/null", "w", stderr)) /* libraries complain as they like */
+            _exit(1);
+        hand_over(path, file);
+        _exit(fflush(file) == 0 ? 0 : 1);
+    }
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+    return status;
+}
+
+/* -------------------------------------------------------------------------------------
+ * This one
+ * ------------------------------------------------------------------------------------- */
+
+/* NULL, or why it is no mesh for us: every index and every number is looked at. */
+static const char *fault(const rt_mesh *mesh)
+{
+    bool some = false;
+    for (int i = 0; i < mesh->position_count; i++) {
+        const rt_vec3 p = mesh->positions[i], q = mesh->positions[0];
+        if (!(fabsf(p.x) <= 1e15f && fabsf(p.y) <= 1e15f && fabsf(p.z) <= 1e15f))
+            return "a position is not a number, or larger than 1e15";
+        some = some || !rt_is_zero(rt_sub(p, q));
+    }
+    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++)
+        if (mesh->indices[i] < 0 || mesh->indices[i] >= mesh->position_count)
+            return no_such_corner;
+    return some ? NULL : "all its points are one";
+}
+
+static const char *take_over(FILE *file, rt_mesh *mesh)
+{
+    static head h;
+    rewind(file);
+    if (fread(&h, sizeof h, 1, file) != 1)
+        return "what was read was lost";
+    h.why[sizeof h.why - 1] = '\0';
+    if (*h.why)
+        return h.why;
+    const size_t positions = (size_t)h.position_count;
+    const size_t indices = 3 * (size_t)h.triangle_count;
+    rt_vec3 *p = malloc(positions * sizeof *p);
+    int *i = malloc(indices * sizeof *i);
+    *mesh = (rt_mesh){.positions = p,
+                      .indices = i,
+                      .position_count = h.position_count,
+                      .triangle_count = h.triangle_count};
+    const char *why = !p || !i ? "not enough memory"
+                      : fread(p, sizeof *p, positions, file) != positions ||
+                              fread(i, sizeof *i, indices, file) != indices
+                          ? "what was read was lost"
+                          : fault(mesh);
+    if (why) {
+        free(p);
+        free(i);
+    }
+    return why;
+}
+
+/* NULL, or why this is no file to read. */
+static const char *refusal(const char *path)
+{
+    static const char *const endings[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    struct stat info;
+    const char *dot = strrchr(path, '.');
+    if (stat(path, &info) != 0)
+        return strerror(errno);
+    if (S_ISDIR(info.st_mode))
+        return strerror(EISDIR);
+    if (!S_ISREG(info.st_mode))
+        return "it is not a file";
+    if (info.st_size > BYTES)
+        return "it is larger than 500 MB";
+    for (size_t i = 0; dot && i < sizeof endings / sizeof endings[0]; i++)
+        if (strcasecmp(dot, endings[i]) == 0)
+            return info.st_size == 0 ? "it is empty" : NULL;
+    return "its name does not end in .obj, .ply, .stl, .gltf or .glb";
+}
+
+bool load_mesh(const char *who, const char *path, rt_mesh *mesh)
+{
+    const char *why = refusal(path);
+    FILE *file = why ? NULL : tmpfile();
+    if (!why && !file)
+        why = strerror(errno);
+    if (!why) {
+        const int status = read_elsewhere(path, file);
+        if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+            why = take_over(file, mesh);
+        else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+            why = "that takes more than a minute";
+        else
+            why = "assimp gave up, or needs more than 4 GB";
+    }
+    if (file)
+        fclose(file);
+    if (why)
+        fprintf(stderr, "%s: cannot read '%s' as a mesh: %s\n", who, path, why);
+    return !why;
+}
+
+#endif
