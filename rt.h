@@ -89,7 +89,8 @@
  *
  * THREADS         Every function may run at the same time on several threads, as long as
  *                 nobody writes what another reads. rt_render starts threads by itself,
- *                 and they meet only when it ends. After that, in a child that fork()
+ *                 and they meet only when it ends; rt_build_bvh does from 4096 shapes on,
+ *                 as many as OpenMP offers. After that, in a child that fork()
  *                 makes, GNU's OpenMP hangs as soon as it needs more than one thread:
  *                 give options.threads = 1 there, or fork before the first picture.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
@@ -2378,9 +2379,10 @@ static inline rt_vec3 rt_albedo(const rt_surface *surface, const rt_hit *hit)
  * Chapter 16. Triangles
  * ==================================================================================== */
 
-/* A mesh of triangles: what a model from a file consists of. The arrays are yours. Of one
- * triangle three corners A, B, C count, so neighbours share positions, and a corner that
- * moves takes all of its triangles along. A mesh of several materials is several meshes. */
+/* A mesh of triangles: what a model from a file consists of. The arrays are yours. Of
+ * one triangle three corners A, B, C count, so neighbours share positions, and a corner
+ * that moves takes all of its triangles along. A mesh of several materials is several
+ * meshes. */
 typedef struct rt_mesh {
     const rt_vec3 *positions;
     const int *indices; /* three for each triangle, into positions: A, B, C, as seen from
@@ -3330,10 +3332,11 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
                                const rt_options *options, const rt_image *image, int x,
                                int y, int sample, rt_path *path);
 
-/* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
- * set scene->bvh = bvh. When a shape or its material changes, build it anew. Memory: 130
- * bytes are asked of RT_MALLOC for each shape, of which some 80 are used, for rt_free_bvh
- * to give back; and 28 more while it builds.
+/* Build a tree over the shapes of the scene, in time n log n, on all cores, the same tree
+ * on any number of them: *bvh is overwritten, then set scene->bvh = bvh. When a shape or
+ * its material changes, build it anew. Memory: about 36 bytes for a sphere, 60 for a
+ * triangle are asked of RT_MALLOC, for rt_free_bvh to give back; while it builds 70 more
+ * for each.
  *
  * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
 RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
@@ -3995,14 +3998,14 @@ static inline int rt__cheapest_cut(const rt__bin *bins, rt__bin *one, rt__bin *t
     return best;
 }
 
-/* Cut a group into itself and another. middles: in the box around the middles of all, out
- * those of both.
+/* Cut a group into itself and another. middles: in the box around the middles of all,
+ * out those of both.
  *
- * A ray enters a box in proportion to its surface, and then asks what is inside, leaf
- * by leaf: the two cost A_left n_left + A_right n_right, if n counts leaves. Of 15 cuts across the longest axis the
- * cheapest is taken: the surface area heuristic, in bins (I. Wald, "On fast
- * construction of SAH-based bounding volume hierarchies", 2007). A giant among small
- * shapes is cut off by it at once, and spoils only the boxes above. */
+ * A ray enters a box in proportion to its surface, and then asks what is inside, leaf by
+ * leaf: the two cost A_left n_left + A_right n_right, if n counts leaves. Of 15 cuts
+ * across the longest axis the cheapest is taken: the surface area heuristic, in bins (I.
+ * Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007). A giant
+ * among small shapes is cut off by it at once, and spoils only the boxes above. */
 static inline void rt__split(rt__entry *entries, bool in_halves, rt__group *group,
                              rt__bounds *middles, rt__group *other,
                              rt__bounds *other_middles)
@@ -4231,8 +4234,8 @@ static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int
 }
 
 /* The order in which a ray meets the boxes, the last first: eight numbers of three bits
- * for each octant, of which bit 0, 1, 2 says that the ray goes down along x, y, z. It goes
- * by the middles of the boxes, and is a guess. Only the time depends on it. */
+ * for each octant, of which bit 0, 1, 2 says that the ray goes down along x, y, z. It
+ * goes by the middles of the boxes, and is a guess. Only the time depends on it. */
 static inline void rt__set_order(rt_bvh_node *node)
 {
     for (int octant = 0; octant < 8; octant++) {
@@ -5502,8 +5505,8 @@ typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
 } rt__column;
 
-/* The shapes of a scene, column by column, by their number in rt_hit; of meshes and custom
- * shapes the boxes around them, see rt__near_others. */
+/* The shapes of a scene, column by column, by their number in rt_hit; of meshes and
+ * custom shapes the boxes around them, see rt__near_others. */
 struct rt__table {
     bool few;                      /* else there is nothing here, and rays ask the tree */
     int spheres, count, all;       /* up to count are spheres and boxes */
@@ -6401,10 +6404,10 @@ RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray 
     return true;
 }
 
-/* rt__enter, for the boxes k to k + RT__STEP - 1: they are met if *t <= *out. It knows by
- * octant through which plane of each axis the ray comes. Infinite planes stand where there
- * is no box, and are never met. p->in in place of the inverse makes the ways in shorter by
- * 8 roundings; up to 4 were too long, and the ways out up to 3 too short. */
+/* rt__enter, for the boxes k to k + RT__STEP - 1: they are met if *t <= *out. It knows
+ * by octant through which plane of each axis the ray comes. Infinite planes stand where
+ * there is no box, and are never met. p->in in place of the inverse makes the ways in
+ * shorter by 8 roundings; up to 4 were too long, and the ways out up to 3 too short. */
 RT__INLINE void rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p, float t_max,
                                 int k, rt__boxes *t, rt__boxes *out)
 {
@@ -6424,19 +6427,19 @@ RT__INLINE void rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p, flo
 /* Which spheres of a leaf may the ray meet before t_max? All of those that it does meet,
  * and hardly any other: here is why none is missed.
  *
- * With g = O - C the point nearest to the centre is at t = b = <g,u> / <u,u>, and the ray
- * meets the sphere if l = g - b u is not longer than R; then between b - h and b + h,
- * h = sqrt(R^2 - l^2) / |u|. Let e = 2^-24. Rounding g, <g,u>, <u,u>, the quotient makes b
- * u wrong by 9 e |g| at most; with g itself and l, l is wrong by less than 14 e |g|. And
- * for any k, (R + d)^2 <= (1 + k) R^2 + (1 + 1/k) d^2. So with k = 0.0009
+ * With g = O - C the point nearest to the centre is at t = b = <g,u> / <u,u>, and the
+ * ray meets the sphere if l = g - b u is not longer than R; then between b - h and b +
+ * h, h = sqrt(R^2 - l^2) / |u|. Let e = 2^-24. Rounding g, <g,u>, <u,u>, the quotient
+ * makes b u wrong by 9 e |g| at most; with g itself and l, l is wrong by less than 14 e
+ * |g|. And for any k, (R + d)^2 <= (1 + k) R^2 + (1 + 1/k) d^2. So with k = 0.0009
  *
  *     l^2 as computed  <=  (R + 14 e |g|)^2 (1 + 4e)  <  1.00091 R^2 + 8e-10 g^2,
  *
  * less than reach below, where 1e-30 makes good what squares lose that are too small for
- * a float. With k = 0.0005 likewise (|u| h)^2 as computed >= R^2 - l^2 + 0.0004 R^2, so h
- * is too large by 0.0001 R / |u| or more. b is wrong by 9 e |g| / |u|, and |g| <= |b u| +
- * R: the first part, and the rounding of t, is less than 1e-6 |b|, the second less than
- * what h has too much. */
+ * a float. With k = 0.0005 likewise (|u| h)^2 as computed >= R^2 - l^2 + 0.0004 R^2, so
+ * h is too large by 0.0001 R / |u| or more. b is wrong by 9 e |g| / |u|, and |g| <= |b
+ * u| + R: the first part, and the rounding of t, is less than 1e-6 |b|, the second less
+ * than what h has too much. */
 RT__INLINE unsigned rt__near_spheres(const rt_bvh_row *row, const rt__probe *p,
                                      float t_max, int k)
 {
@@ -6461,8 +6464,8 @@ RT__INLINE unsigned rt__near_spheres(const rt_bvh_row *row, const rt__probe *p,
            rt__bat_most(zero, end);
 }
 
-/* Which boxes, or boxes around custom shapes? As in rt__enter_boxes; they are made a little
- * larger, as in rt__with_margin. */
+/* Which boxes, or boxes around custom shapes? As in rt__enter_boxes; they are made a
+ * little larger, as in rt__with_margin. */
 RT__INLINE unsigned rt__near_boxes(const rt_bvh_row *row, const rt__probe *p, float t_max,
                                    int k)
 {
@@ -6482,7 +6485,7 @@ RT__INLINE unsigned rt__near_boxes(const rt_bvh_row *row, const rt__probe *p, fl
     return rt__bat_most(t_in * (1.0f - 4.0f * FLT_EPSILON), t_out);
 }
 
-/* Corner number corner of eight triangles, sheared; and the largest coordinates so far. */
+/* One corner of each triangle, sheared; and the largest coordinates so far. */
 RT__INLINE void rt__shear_corner(const rt_bvh_row *row, const rt__probe *p, int k,
                                  int corner, rt__boxes *x, rt__boxes *y, rt__boxes *most,
                                  rt__boxes *most_z)
@@ -6690,9 +6693,9 @@ RT__INLINE __m256i rt__unpack(uint32_t places)
                              _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21));
 }
 
-/* Enter a node. *met: is a box met? Returns what is inside of the first; the others are put
- * on the stack, the next one last, all at once: a loop over them would go so many times as
- * no core can guess. If any hit will do, so does any order. */
+/* Enter a node. *met: is a box met? Returns what is inside of the first; the others are
+ * put on the stack, the next one last, all at once: a loop over them would go so many
+ * times as no core can guess. If any hit will do, so does any order. */
 RT__INLINE int rt__enter_node(rt__stack *stack, const rt_bvh_node *node,
                               const rt__probe *p, float t_max, bool any, bool *met)
 {
