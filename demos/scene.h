@@ -193,8 +193,9 @@ static MOVABLE cylinder room_cylinder = {{30, -20.4f, 6}, 10, 8};
 
 /* Both times in the room, as room_prepare makes them. */
 static rt_mesh room_meshes[MESH_SCENES];
-static rt_custom_shape room_pedestal = {
-    .material = {{0.5f, 0.5f, 0.5f}, false}, .hit = cylinder_hit, .data = &room_cylinder};
+static rt_custom_shape room_pedestal = {.material = {{0.32f, 0.13f, 0.06f}, false},
+                                        .hit = cylinder_hit,
+                                        .data = &room_cylinder};
 static rt_bvh room_trees[MESH_SCENES];
 
 static MOVABLE rt_surface mesh_surfaces[ROOM_SHAPES] = {

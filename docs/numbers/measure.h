@@ -6,7 +6,7 @@
 
 static double volume_of(const rt_custom_shape *shape)
 {
-    enum { GRID = 400 };
+    enum { GRID = 400 }; /* rays in each direction */
     const rt_vec3 middle = rt_scale(rt_add(shape->min, shape->max), 0.5f);
     const float size = rt_length(rt_sub(shape->max, shape->min)); /* more than enough */
     const rt_vec3 u = rt_normalize(rt_vec(1, -2, 3));
