@@ -125,7 +125,7 @@ check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windo
 
 # ---------------------------------------------------------------------------- the rest
 
-bench: ## speed against the report's way and other renderers, below two minutes
+bench: ## speed against the report's way and other renderers, about two minutes
 	@CC='$(CC)' CXX='$(CXX)' CFLAGS='$(MACHINE) $(CFLAGS)' OPENMP='$(OPENMP)' BUILD='$(BUILD)' tests/bench/run
 
 bench-rays: ## single rays beside Embree and tinybvh: TINYBVH=where tiny_bvh.h is
@@ -146,6 +146,7 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/sit
 	$(BUILD)/demo14 --no-window --quiet --samples 64 --out docs/images/demo14-64.png
 	$(BUILD)/demo15 --no-window --quiet --texture docs/images/demo09.png \
 	    --out docs/images/demo15-texture.png
+	docs/pictures.sh
 	@tests/check screenshots
 	docs/numbers.sh
 	docs/renew.sh README.md docs/*.md

@@ -961,8 +961,17 @@ static inline float rt__pull(float p, float origin)
 static inline bool rt__hit_other(const rt_scene *scene, int number, const rt_ray *ray,
                                  rt_hit *hit); /* 16, 17 */
 
+/* Pull P back along the face of a box. */
+static inline void rt__pull_back(const rt_ray *ray, rt_hit *hit)
+{
+    const rt_vec3 p = hit->point, n = hit->normal, o = ray->origin;
+    hit->point = rt_vec(n.x == 0.0f ? rt__pull(p.x, o.x) : p.x,
+                        n.y == 0.0f ? rt__pull(p.y, o.y) : p.y,
+                        n.z == 0.0f ? rt__pull(p.z, o.z) : p.z);
+}
+
 /* The hit of the shape with this number; of a sphere at t, or wherever it is if that is
- * 0. Of a box, P is pulled back along the face. */
+ * 0. */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                  double t, rt_hit *hit)
 {
@@ -976,12 +985,8 @@ static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray
     if (!found)
         return false;
     hit->shape = number;
-    if (box >= 0) {
-        const rt_vec3 p = hit->point, n = hit->normal, o = ray->origin;
-        hit->point = rt_vec(n.x == 0.0f ? rt__pull(p.x, o.x) : p.x,
-                            n.y == 0.0f ? rt__pull(p.y, o.y) : p.y,
-                            n.z == 0.0f ? rt__pull(p.z, o.z) : p.z);
-    }
+    if (box >= 0)
+        rt__pull_back(ray, hit);
     return true;
 }
 
@@ -1301,9 +1306,9 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
  * scenes", SIGGRAPH 1980.
  * ==================================================================================== */
 
-/* The number of the nearest shape on the ray before t_max, or of any; or -1. */
-typedef int rt__search_function(const struct rt_scene *scene, const rt_ray *ray,
-                                float t_max, bool any);
+/* The nearest hit of the ray before t_max; or, if hit is NULL, is there any? */
+typedef bool rt__search_function(const struct rt_scene *scene, const rt_ray *ray,
+                                 float t_max, rt_hit *hit);
 
 /* Up to eight boxes, and what is in each: a leaf, that is up to eight shapes of one kind,
  * or another node. Eight, and one array for each coordinate, because that is what a core
@@ -1482,13 +1487,10 @@ static inline float rt__beyond(float t)
     return t < FLT_MAX - more ? t + more : FLT_MAX;
 }
 
-/* This shape is met at t, or not, which is 0. Of several at the same t the first wins. */
-static inline void rt__consider(rt__best *best, int number, float t)
+/* This shape is met at t; 0: it is not. Of several at the same t the first wins. */
+static inline bool rt__is_better(const rt__best *best, int number, float t)
 {
-    if (t > 0.0f && (t < best->t || (t == best->t && number < best->number))) {
-        best->t = t;
-        best->number = number;
-    }
+    return t > 0.0f && (t < best->t || (t == best->t && number < best->number));
 }
 
 /* All shapes of a leaf. If any will do, returns whether one is met. */
@@ -1501,7 +1503,10 @@ static inline bool rt__ask_leaf(const rt_scene *scene, int leaf, const rt_ray *r
         const float t = rt__meet_shape(scene, numbers[k], ray, limit);
         if (any && t > 0.0f)
             return true;
-        rt__consider(best, numbers[k], t);
+        if (rt__is_better(best, numbers[k], t)) {
+            best->number = numbers[k];
+            best->t = t;
+        }
     }
     return false;
 }
@@ -1555,36 +1560,38 @@ static inline int rt__search(const rt_scene *scene, const rt_ray *ray, float t_m
     }
 }
 
-/* That of the last section finds the same sooner, but calls no routine of yours. */
-static inline int rt__search_tree(const rt_scene *scene, const rt_ray *ray, float t_max,
-                                  bool any)
-{
-#ifndef RT__OWN
-    if (scene->bvh->search)
-        return scene->bvh->search(scene, ray, t_max, any);
-#endif
-    return rt__search(scene, ray, t_max, any);
-}
-
 static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
                                        rt_hit *hit); /* at the end */
 static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
                                       float t_max);
 
+/* The search of the last section finds the same sooner, but calls no routine of yours. */
+#ifdef RT__OWN
+#define RT__FASTER(scene) NULL
+#else
+#define RT__FASTER(scene) (scene)->bvh->search
+#endif
+
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit)
 {
+    rt__search_function *faster = RT__FASTER(scene);
     if (scene->bvh->path)
         return rt__intersect_noted(scene, ray, hit);
-    const int number = rt__search_tree(scene, ray, FLT_MAX, false);
+    if (faster)
+        return faster(scene, ray, FLT_MAX, hit);
+    const int number = rt__search(scene, ray, FLT_MAX, false);
     return number >= 0 && rt__hit_shape(scene, number, ray, 0.0, hit);
 }
 
 static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, float t_max)
 {
+    rt__search_function *faster = RT__FASTER(scene);
     if (scene->bvh->path)
         return rt__occluded_noted(scene, ray, t_max);
-    return rt__search_tree(scene, ray, t_max, true) >= 0;
+    if (faster)
+        return faster(scene, ray, t_max, NULL);
+    return rt__search(scene, ray, t_max, true) >= 0;
 }
 
 /* ====================================================================================
@@ -2388,27 +2395,33 @@ static inline rt_vec3 rt_corner(const rt_mesh *mesh, int triangle, int k)
     return mesh->positions[mesh->indices[3 * (size_t)triangle + (size_t)k]];
 }
 
-/* (B - A) x (C - A): across the triangle, to its outside, twice its area long. */
-static inline rt_dvec3 rt__across_corners(rt_vec3 a, rt_vec3 b, rt_vec3 c)
+typedef struct rt__corners {
+    rt_vec3 a, b, c;
+} rt__corners;
+
+static inline rt__corners rt__corners_of(const rt_mesh *mesh, int triangle)
 {
-    return rt_dcross(rt_dsub(rt_to_double(b), rt_to_double(a)),
-                     rt_dsub(rt_to_double(c), rt_to_double(a)));
+    rt__corners corners;
+    corners.a = rt_corner(mesh, triangle, 0);
+    corners.b = rt_corner(mesh, triangle, 1);
+    corners.c = rt_corner(mesh, triangle, 2);
+    return corners;
 }
 
-static inline rt_dvec3 rt__across(const rt_mesh *mesh, int triangle)
+/* (B - A) x (C - A): across the triangle, to its outside, twice its area long. */
+static inline rt_dvec3 rt__across(const rt__corners *corners)
 {
-    return rt__across_corners(rt_corner(mesh, triangle, 0), rt_corner(mesh, triangle, 1),
-                              rt_corner(mesh, triangle, 2));
+    const rt_dvec3 a = rt_to_double(corners->a);
+    return rt_dcross(rt_dsub(rt_to_double(corners->b), a),
+                     rt_dsub(rt_to_double(corners->c), a));
 }
 
 /* The mean of the corners with these weights, whose sum must be 1. */
-static inline rt_vec3 rt__blend(const rt_mesh *mesh, int triangle, rt_dvec3 weights)
+static inline rt_vec3 rt__blend(const rt__corners *corners, rt_dvec3 weights)
 {
-    const rt_dvec3 a = rt_to_double(rt_corner(mesh, triangle, 0));
-    const rt_dvec3 b = rt_to_double(rt_corner(mesh, triangle, 1));
-    const rt_dvec3 c = rt_to_double(rt_corner(mesh, triangle, 2));
-    const rt_dvec3 ab = rt_dmad(rt_dscale(a, weights.x), weights.y, b);
-    return rt_to_float(rt_dmad(ab, weights.z, c));
+    const rt_dvec3 a = rt_dscale(rt_to_double(corners->a), weights.x);
+    const rt_dvec3 ab = rt_dmad(a, weights.y, rt_to_double(corners->b));
+    return rt_to_float(rt_dmad(ab, weights.z, rt_to_double(corners->c)));
 }
 
 #ifndef rt_hit_triangle
@@ -2476,13 +2489,12 @@ static inline rt_dvec3 rt__sheared(const rt__shear *shear, rt_vec3 corner)
  *
  * Method: S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT
  * 2(1), 2013. */
-static inline double rt__meet_corners(const rt__shear *shear, rt_vec3 corner_a,
-                                      rt_vec3 corner_b, rt_vec3 corner_c, float t_max,
-                                      rt_dvec3 *weights)
+static inline double rt__meet_corners(const rt__shear *shear, const rt__corners *corners,
+                                      float t_max, rt_dvec3 *weights)
 {
-    const rt_dvec3 a = rt__sheared(shear, corner_a);
-    const rt_dvec3 b = rt__sheared(shear, corner_b);
-    const rt_dvec3 c = rt__sheared(shear, corner_c);
+    const rt_dvec3 a = rt__sheared(shear, corners->a);
+    const rt_dvec3 b = rt__sheared(shear, corners->b);
+    const rt_dvec3 c = rt__sheared(shear, corners->c);
     const double w_a = c.x * b.y - c.y * b.x;
     const double w_b = a.x * c.y - a.y * c.x;
     const double w_c = b.x * a.y - b.y * a.x;
@@ -2495,23 +2507,29 @@ static inline double rt__meet_corners(const rt__shear *shear, rt_vec3 corner_a,
     if (!(t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max))
         return 0.0;
     *weights = rt_dvec(w_a, w_b, w_c);
-    const rt_dvec3 n = rt__across_corners(corner_a, corner_b, corner_c);
+    const rt_dvec3 n = rt__across(corners);
     return rt_ddot(n, n) > 0.0 ? t : 0.0; /* rounding may give a line an area */
 }
 
-static inline double rt__meet_triangle(const rt_mesh *mesh, int triangle,
-                                       const rt__shear *shear, float t_max,
-                                       rt_dvec3 *weights)
+/* The hit at t, with these weights. P is the mean of the corners, in double and rounded
+ * once: so it is as good from afar as from near. The normal is that of the flat
+ * triangle. */
+static inline void rt__hit_corners(const rt__corners *corners, const rt_ray *ray,
+                                   double t, rt_dvec3 weights, rt_hit *hit)
 {
-    return rt__meet_corners(shear, rt_corner(mesh, triangle, 0),
-                            rt_corner(mesh, triangle, 1), rt_corner(mesh, triangle, 2),
-                            t_max, weights);
+    const rt_dvec3 w = rt_dscale(weights, 1.0 / (weights.x + weights.y + weights.z));
+    const rt_dvec3 n = rt_dnormalize(rt__across(corners));
+    hit->t = (float)t;
+    hit->point = rt__blend(corners, w);
+    hit->inside = rt_ddot(n, rt_to_double(ray->direction)) > 0.0;
+    hit->normal = rt_to_float(rt_dscale(n, hit->inside ? -1.0 : 1.0));
+    hit->shape = 0;
+    hit->u = (float)w.y;
+    hit->v = (float)w.z;
 }
 
-/* The point of the triangle on the ray, if 0 < t < t_max. See above how it is found. P is
- * the mean of the corners with these weights, in double and rounded once: so it is as
- * good from afar as from near. The normal is that of the flat triangle; hit->part is its
- * number, and P = (1 - u - v) A + u B + v C.
+/* The point of the triangle on the ray, if 0 < t < t_max. See above how it is found;
+ * hit->part is its number, and P = (1 - u - v) A + u B + v C.
  *
  * Returns false, and leaves *hit alone, on a miss. A triangle without area, one that is
  * seen exactly from the edge, NaN and infinity are misses. */
@@ -2519,21 +2537,14 @@ static inline bool rt_hit_triangle(const rt_mesh *mesh, int triangle, const rt_r
                                    float t_max, rt_hit *hit)
 {
     const rt__shear shear = rt__shear_of(ray);
-    rt_dvec3 w;
-    const double t = rt__meet_triangle(mesh, triangle, &shear, t_max, &w);
+    const rt__corners corners = rt__corners_of(mesh, triangle);
+    rt_dvec3 weights;
+    const double t = rt__meet_corners(&shear, &corners, t_max, &weights);
     if (!(t > 0.0))
         return false;
-    w = rt_dscale(w, 1.0 / (w.x + w.y + w.z));
-    const rt_dvec3 n = rt_dnormalize(rt__across(mesh, triangle));
-    hit->t = (float)t;
-    hit->point = rt__blend(mesh, triangle, w);
-    hit->inside = rt_ddot(n, rt_to_double(ray->direction)) > 0.0;
-    hit->normal = rt_to_float(rt_dscale(n, hit->inside ? -1.0 : 1.0));
+    rt__hit_corners(&corners, ray, t, weights, hit);
     hit->material = &mesh->material;
-    hit->shape = 0;
     hit->part = triangle;
-    hit->u = (float)w.y;
-    hit->v = (float)w.z;
     return true;
 }
 #endif
@@ -2660,8 +2671,9 @@ static inline float rt__meet_one(const rt_scene *scene, rt__other p, const rt_ra
                                                                              : 0.0f;
 #else
     const rt__shear shear = rt__shear_of(ray);
-    rt_dvec3 w;
-    return (float)rt__meet_triangle(&scene->meshes[p.mesh], p.part, &shear, t_max, &w);
+    const rt__corners corners = rt__corners_of(&scene->meshes[p.mesh], p.part);
+    rt_dvec3 weights;
+    return (float)rt__meet_corners(&shear, &corners, t_max, &weights);
 #endif
 }
 
@@ -2676,27 +2688,32 @@ static inline float rt__meet_other(const rt_scene *scene, int number, const rt_r
  * If they meet at less than a right angle, that leads towards the other, and close to the
  * edge through it: the path would be outside of a closed mesh. From 4 steps away that
  * does not happen down to 14 degrees, whose cotangent is 4. */
-static inline void rt__draw_in(const rt_mesh *mesh, rt_hit *hit)
+static inline void rt__draw_in(const rt__corners *corners, rt_hit *hit)
 {
-    const rt_dvec3 a = rt_to_double(rt_corner(mesh, hit->part, 0));
-    const rt_dvec3 ab = rt_dsub(rt_to_double(rt_corner(mesh, hit->part, 1)), a);
-    const rt_dvec3 ac = rt_dsub(rt_to_double(rt_corner(mesh, hit->part, 2)), a);
+    const rt_dvec3 a = rt_to_double(corners->a);
+    const rt_dvec3 ab = rt_dsub(rt_to_double(corners->b), a);
+    const rt_dvec3 ac = rt_dsub(rt_to_double(corners->c), a);
     const rt_dvec3 bc = rt_dsub(ac, ab), n = rt_dcross(ab, ac);
     double longest = rt_ddot(ab, ab);
     longest = rt_ddot(ac, ac) > longest ? rt_ddot(ac, ac) : longest;
     longest = rt_ddot(bc, bc) > longest ? rt_ddot(bc, bc) : longest;
-    const double low = sqrt(rt_ddot(n, n) / longest); /* the least of its three heights */
-    const rt_vec3 step =
-        rt_sub(rt_leave(hit->point, hit->normal, hit->normal), hit->point);
-    double least = 4.0 * (double)rt_length(step) / low;
-    least = least < 0.1 ? least : 0.1;
     rt_dvec3 w =
         rt_dvec(1.0 - (double)hit->u - (double)hit->v, (double)hit->u, (double)hit->v);
-    if (w.x >= least && w.y >= least && w.z >= least)
+    const rt_vec3 step =
+        rt_sub(rt_leave(hit->point, hit->normal, hit->normal), hit->point);
+    const double steps = 16.0 * (double)rt_dot(step, step), nn = rt_ddot(n, n);
+    double smallest = w.x < w.y ? w.x : w.y;
+    smallest = smallest < w.z ? smallest : w.z;
+    if (smallest * smallest * nn >= steps * longest)
+        return;
+    /* the least of the three heights is |n| / the longest edge */
+    double least = sqrt(steps * longest / nn);
+    least = least < 0.1 ? least : 0.1;
+    if (smallest >= least)
         return;
     w = rt_dvec(w.x > least ? w.x : least, w.y > least ? w.y : least,
                 w.z > least ? w.z : least);
-    hit->point = rt__blend(mesh, hit->part, rt_dscale(w, 1.0 / (w.x + w.y + w.z)));
+    hit->point = rt__blend(corners, rt_dscale(w, 1.0 / (w.x + w.y + w.z)));
 }
 
 /* The number of the nearest of them, of the first of several at the same t; or if any
@@ -2735,16 +2752,17 @@ static inline bool rt__hit_other(const rt_scene *scene, int number, const rt_ray
         return true;
     }
     const rt_mesh *mesh = &scene->meshes[p.mesh];
+    const rt__corners corners = rt__corners_of(mesh, p.part);
 #ifdef rt_hit_triangle /* yours need not set all */
     hit->u = hit->v = -1.0f;
-    hit->inside = rt_ddot(rt__across(mesh, p.part), rt_to_double(ray->direction)) > 0.0;
+    hit->inside = rt_ddot(rt__across(&corners), rt_to_double(ray->direction)) > 0.0;
 #endif
     if (!rt_hit_triangle(mesh, p.part, ray, FLT_MAX, hit))
         return false;
     hit->shape = before + p.mesh;
     hit->part = p.part;
     if (hit->u >= 0.0f && hit->v >= 0.0f)
-        rt__draw_in(mesh, hit);
+        rt__draw_in(&corners, hit);
     return true;
 }
 
@@ -3841,8 +3859,20 @@ static inline rt__bounds rt__other_bounds(const rt_scene *scene, rt__other p)
     return b;
 }
 
-/* A box around a shape, and a little more: its coordinates are rounded, and a ray in the
- * very plane of a face must enter it (for rt__inverse makes 0 of 0/0). */
+/* A box, and a little more: its coordinates are rounded, and a ray in the very plane of a
+ * face must enter it (for rt__inverse makes 0 of 0/0). */
+static inline rt__bounds rt__with_margin(rt__bounds b)
+{
+    const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
+                                 rt__max(b.min, rt_scale(b.min, -1.0f)));
+    const rt_vec3 margin =
+        rt_add(rt_scale(size, 2.0f * FLT_EPSILON), rt_vec(1e-15f, 1e-15f, 1e-15f));
+    b.min = rt_sub(b.min, margin);
+    b.max = rt_add(b.max, margin);
+    return b;
+}
+
+/* A box around a shape. */
 static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
 {
     rt__bounds b;
@@ -3859,13 +3889,7 @@ static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
         b.min = rt_sub(s->center, r);
         b.max = rt_add(s->center, r);
     }
-    const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
-                                 rt__max(b.min, rt_scale(b.min, -1.0f)));
-    const rt_vec3 margin =
-        rt_add(rt_scale(size, 2.0f * FLT_EPSILON), rt_vec(1e-15f, 1e-15f, 1e-15f));
-    b.min = rt_sub(b.min, margin);
-    b.max = rt_add(b.max, margin);
-    return b;
+    return rt__with_margin(b);
 }
 
 /* A shape that is to be put into the tree. */
@@ -3940,13 +3964,10 @@ static inline int rt__bin_of(const rt__entry *entry, int axis, float low, float 
     return bin < RT__BINS ? bin : RT__BINS - 1;
 }
 
-#ifndef RT__PRICE
-#define RT__PRICE(n) (n)
-#endif
-/* What it costs to ask so many shapes. */
-static inline double rt__price(int count)
+/* How many leaves so many shapes make at least. */
+static inline double rt__leaves(int count)
 {
-    return (double)RT__PRICE(count);
+    return (double)((count + 7) / 8);
 }
 
 /* The first cut of the cheapest two, and in *one and *two what it makes. */
@@ -3962,8 +3983,8 @@ static inline int rt__cheapest_cut(const rt__bin *bins, rt__bin *one, rt__bin *t
     side = rt__no_bin();
     for (int k = 1; k < RT__BINS; k++) {
         rt__add_bin(&side, &bins[k - 1]);
-        const double cost = rt__area(&side.bounds) * rt__price(side.count) +
-                            rt__area(&after[k].bounds) * rt__price(after[k].count);
+        const double cost = rt__area(&side.bounds) * rt__leaves(side.count) +
+                            rt__area(&after[k].bounds) * rt__leaves(after[k].count);
         if (cost < best_cost) {
             best_cost = cost;
             best = k;
@@ -4192,8 +4213,8 @@ static inline void rt__set_values(const rt_scene *scene, int number, float *valu
         rt__put_vec(values + 3 * k, rt_corner(&scene->meshes[p.mesh], p.part, k));
 }
 
-/* The leaf at rows[at]; returns what a node says of it. Columns without a shape are NaN,
- * which meets nothing. */
+/* The leaf at rows[at]; returns what a node says of it. Columns without a number repeat
+ * the first. */
 static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int at)
 {
     const rt__entry *entries = &b->entries[group->first];
@@ -4201,36 +4222,34 @@ static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int
     rt_bvh_row *row = &b->bvh->rows[at];
     for (int k = 0; k < 8; k++) {
         float values[9];
-        for (int i = 0; i < 9; i++)
-            values[i] = NAN;
         row->number[k] = k < group->count ? entries[k].number : -1;
-        if (k < group->count)
-            rt__set_values(b->scene, entries[k].number, values);
+        rt__set_values(b->scene, entries[k < group->count ? k : 0].number, values);
         for (int i = 1; i < rows; i++)
             row[i].value[k] = values[i - 1];
     }
     return at << 2 | kind;
 }
 
-/* In which order does a ray meet the boxes? Bit 0, 1, 2 of octant: it goes down along x,
+/* The order in which a ray meets the boxes, the last first. Bit 0, 1, 2 of octant: it goes down along x,
  * y, z. It is a guess, by where they begin, and only the time depends on it. Eight
  * numbers of three bits. */
 static inline void rt__set_order(rt_bvh_node *node)
 {
     for (int octant = 0; octant < 8; octant++) {
-        float begin[8];
+        float place[8] = {0.0f};
         uint32_t order = 0;
         for (int k = 0; k < node->count; k++) {
-            const float x = (octant & 1) != 0 ? -node->max_x[k] : node->min_x[k];
-            const float y = (octant & 2) != 0 ? -node->max_y[k] : node->min_y[k];
-            const float z = (octant & 4) != 0 ? -node->max_z[k] : node->min_z[k];
-            begin[k] = x + y + z;
+            const float x = node->min_x[k] + node->max_x[k];
+            const float y = node->min_y[k] + node->max_y[k];
+            const float z = node->min_z[k] + node->max_z[k];
+            place[k] = ((octant & 1) != 0 ? -x : x) + ((octant & 2) != 0 ? -y : y) +
+                       ((octant & 4) != 0 ? -z : z);
         }
-        for (int k = 0; k < 8; k++) { /* how many come before it? */
-            int before = k < node->count ? 0 : k;
+        for (int k = 0; k < 8; k++) { /* how many come after it? */
+            int after = k < node->count ? 0 : k;
             for (int i = 0; k < node->count && i < node->count; i++)
-                before += begin[i] < begin[k] || (begin[i] == begin[k] && i < k);
-            order |= (uint32_t)k << 3 * before;
+                after += place[i] > place[k] || (place[i] == place[k] && i < k);
+            order |= (uint32_t)k << 3 * after;
         }
         for (int i = 0; i < 3; i++)
             node->order[3 * octant + i] = (unsigned char)(order >> 8 * i & 255u);
@@ -4304,8 +4323,8 @@ static inline bool rt__make_room(rt_bvh *bvh, int nodes, int rows)
 }
 
 #if RT__LANES > 1
-static int rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_max,
-                            bool any); /* the last section */
+static bool rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_max,
+                             rt_hit *hit); /* the last section */
 #endif
 
 /* The shapes, kind by kind, and of each kind a group. */
@@ -5477,16 +5496,17 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
 
 #if RT__LANES > 1
 /* So many shapes are asked one by one, without the tree: about there it takes as long. */
-enum { RT__FEW = 40 * RT__LANES };
+enum { RT__FEW = 40 * RT__LANES, RT__FEW_OTHERS = 16 };
 
 typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
 } rt__column;
 
-/* The shapes of a scene, column by column; spheres first, then boxes. */
+/* The shapes of a scene, column by column, by their number in rt_hit; of meshes and custom
+ * shapes the boxes around them, see rt__near_others. */
 struct rt__table {
-    bool few; /* else there is nothing here, and rays ask the tree */
-    int spheres, count;
+    bool few;                      /* else there is nothing here, and rays ask the tree */
+    int spheres, count, all;       /* up to count are spheres and boxes */
     rt__column place, max, albedo; /* place is the center or min */
     float kind[RT__FEW];           /* see rt__hits */
     float radius[RT__FEW];         /* 0: a box */
@@ -5502,14 +5522,33 @@ struct rt__table {
 
 #define RT__DOUBT 1.953125e-3f /* 2^-9, see rt__place */
 
+/* A box around mesh or custom shape number i. */
+static rt__bounds rt__around(const rt_scene *scene, int i)
+{
+    rt__bounds b = rt__no_bounds();
+    if (i >= scene->mesh_count) {
+        rt__loosen(&scene->custom_shapes[i - scene->mesh_count], &b.min, &b.max);
+        return rt__with_margin(b);
+    }
+    const rt_mesh *mesh = &scene->meshes[i];
+    for (int k = 0; k < mesh->position_count; k++) {
+        b.min = rt__min(b.min, mesh->positions[k]);
+        b.max = rt__max(b.max, mesh->positions[k]);
+    }
+    if (mesh->position_count == 0)
+        b.min = b.max = rt_vec(0.0f, 0.0f, 0.0f);
+    return rt__with_margin(b);
+}
+
 /* Few shapes, of numbers so moderate that squares are good floats, and no sphere so small
  * that rt_leave's step is on the other side of it? */
 static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
                         const rt_lens *lens)
 {
     const float most = 1e7f;
-    bool good = rt__primitive_count(scene) <= RT__FEW && scene->mesh_count == 0 &&
-                scene->custom_shape_count == 0 &&
+    const int64_t others = (int64_t)scene->mesh_count + scene->custom_shape_count;
+    bool good = others <= RT__FEW_OTHERS &&
+                (int64_t)scene->sphere_count + scene->box_count + others <= RT__FEW &&
                 rt__within(camera->position, -most, most) && lens->radius <= most;
     for (int i = 0; good && i < scene->sphere_count; i++) {
         const rt_sphere *s = &scene->spheres[i];
@@ -5519,6 +5558,10 @@ static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
     for (int i = 0; good && i < scene->box_count; i++)
         good = rt__within(scene->boxes[i].min, -most, most) &&
                rt__within(scene->boxes[i].max, -most, most);
+    for (int i = 0; good && i < (int)others; i++) {
+        const rt__bounds b = rt__around(scene, i);
+        good = rt__within(b.min, -most, most) && rt__within(b.max, -most, most);
+    }
     for (int i = 0; good && i < scene->light_count; i++)
         good = rt__within(scene->lights[i].position, -most, most);
     for (int i = 0; good && i < scene->lamp_count; i++) {
@@ -5557,11 +5600,9 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
     s->least_light = 1e30f;
     s->spheres = scene->sphere_count;
     s->count = s->spheres + scene->box_count;
-    for (int i = 0; i < s->count; i++) {
-        const rt_sphere *sphere = i < s->spheres ? &scene->spheres[i] : NULL;
-        const rt_box *box = sphere ? NULL : &scene->boxes[i - s->spheres];
-        const rt_material *material = sphere ? &sphere->material : &box->material;
-        rt__put(&s->place, i, sphere ? sphere->center : box->min);
+    s->all = rt__shape_count(scene);
+    for (int i = 0; i < s->all; i++) {
+        const rt_material *material = rt__material_of(scene, i);
         rt__put(&s->albedo, i, material->albedo);
         s->kind[i] = material->mirror ? 1.0f : 0.0f;
         if (scene->surfaces) {
@@ -5571,10 +5612,20 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
             rt__put(&s->absorption, i, surface->absorption);
             rt__put(&s->emission, i, surface->emission);
         }
-        if (box) {
-            rt__put(&s->max, i, box->max);
+        if (i >= s->spheres) {
+            rt__bounds b;
+            if (i < s->count) {
+                b.min = scene->boxes[i - s->spheres].min;
+                b.max = scene->boxes[i - s->spheres].max;
+            } else {
+                b = rt__around(scene, i - s->count);
+            }
+            rt__put(&s->place, i, b.min);
+            rt__put(&s->max, i, b.max);
             continue;
         }
+        const rt_sphere *sphere = &scene->spheres[i];
+        rt__put(&s->place, i, sphere->center);
         const rt_dvec3 o = rt_to_double(sphere->center);
         const double oo = rt_ddot(o, o), r = (double)sphere->radius;
         s->radius[i] = sphere->radius;
@@ -6193,6 +6244,24 @@ RT__NOINLINE rt__m rt__finish_boxes(const rt__table *s, const rt__f3 *origin,
 static void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
                              const rt__f3 *direction, unsigned lanes, rt__hits *hits);
 
+/* Meshes and custom shapes are asked by one ray after the other, in the tree. Which rays
+ * may meet one before t_max? Those that enter the box around it, or are parallel to a
+ * face. */
+RT__NOINLINE rt__m rt__near_others(const rt__table *s, const rt__f3 *origin,
+                                   const rt__f3 *direction, const rt__f *t_max)
+{
+    const rt__slab_rays r = rt__for_boxes(*origin, *direction);
+    const rt__f zero = rt__all(0.0f);
+    rt__m near_any = r.parallel;
+    for (int i = s->count; i < s->all; i++) {
+        rt__f t_in, t_out, doubt;
+        rt__slab(s, i, &r, &t_in, &t_out, &doubt);
+        near_any |= rt__no(rt__less(t_out + doubt, rt__fmax(t_in, zero)) |
+                           rt__less(*t_max + doubt, t_in));
+    }
+    return near_any;
+}
+
 /* rt_intersect of a scene with few shapes. */
 RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m lanes,
                          rt__hits *hits)
@@ -6224,11 +6293,14 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
                        rt__less(t * t * a, r * r * 8e9f) &
                        rt__less(rt__all(4e-6f), rt__abs(toward));
     rt__m ask = lanes & rt__no(missed | good);
-    if (!rt__any(ask))
-        return;
     const rt__m boxes = ask & rt__no(sphere);
     if (rt__any(boxes))
         ask &= rt__no(rt__finish_boxes(s, &p->origin, &u, boxes, &n.at, &limit, hits));
+    if (s->count < s->all) {
+        const rt__f t_max = rt__select(missed, rt__all(FLT_MAX), hits->t);
+        hits->inside = n.at & 0;
+        ask |= lanes & rt__near_others(s, &p->origin, &u, &t_max);
+    }
     if (rt__any(ask))
         rt__find_in_tree(job->scene, &p->origin, &u, rt__bits(ask), hits);
 }
@@ -6261,6 +6333,18 @@ RT__INLINE rt__boxes rt__eight(const float *values)
     return v;
 }
 
+/* Which columns of a leaf have a shape? */
+RT__INLINE unsigned rt__columns(const rt_bvh_row *row)
+{
+#if RT__LANES > 4
+    return ~(unsigned)_mm256_movemask_ps((__m256)rt__eight(row->value)) & 255u;
+#else
+    rt__i numbers[2];
+    memcpy(numbers, row->number, sizeof numbers);
+    return ~(rt__bits(numbers[0] < 0) | rt__bits(numbers[1] < 0) << 4) & 255u;
+#endif
+}
+
 RT__INLINE rt__boxes rt__babs(rt__boxes v)
 {
     return rt__bmax(v, -v);
@@ -6273,57 +6357,66 @@ typedef struct rt__probe {
     int octant;              /* see rt__set_order */
     int in_x, in_y, in_z;    /* where in a node, in floats, the planes are ... */
     int out_x, out_y, out_z; /* ... through which it comes and goes */
+    rt_vec3 in;              /* inverse, a little smaller */
     float over_a, over_root; /* 1 / <u,u>, 1 / |u| */
     rt__shear shear;         /* of chapter 16 ... */
     float origin[3], shear_x, shear_y; /* ... and in floats, turned */
     int row[3];                        /* where the coordinates that become x, y, z are */
 } rt__probe;
 
-RT__INLINE rt__probe rt__probe_of(const rt_ray *ray)
+/* Not all rays are fit: the squares of short and long directions are no good floats. And
+ * the sums and products of those that are must not overflow, unless they are almost
+ * parallel to an axis. */
+RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray *ray)
 {
-    const rt_vec3 u = ray->direction;
-    rt__probe p;
-    p.ray = *ray;
-    p.inverse = rt_vec(rt__inverse(u.x), rt__inverse(u.y), rt__inverse(u.z));
-    const int x = p.inverse.x < 0.0f, y = p.inverse.y < 0.0f, z = p.inverse.z < 0.0f;
-    p.octant = x | y << 1 | z << 2;
-    p.in_x = x ? 24 : 0;
-    p.in_y = y ? 32 : 8;
-    p.in_z = z ? 40 : 16;
-    p.out_x = 24 - p.in_x;
-    p.out_y = 40 - p.in_y;
-    p.out_z = 56 - p.in_z;
-    p.over_a = 1.0f / rt_dot(u, u);
-    p.over_root = sqrtf(p.over_a);
-    p.shear = rt__shear_of(ray);
-    const rt_vec3 turned = rt_to_float(rt__turned(ray->origin, p.shear.axis));
-    rt__put_vec(p.origin, turned);
-    p.shear_x = (float)p.shear.x;
-    p.shear_y = (float)p.shear.y;
-    p.row[0] = 1 + (p.shear.axis + 1) % 3;
-    p.row[1] = 1 + (p.shear.axis + 2) % 3;
-    p.row[2] = 1 + p.shear.axis;
-    return p;
+    const rt_vec3 o = ray->origin, u = ray->direction;
+    if (!rt__within(o, -1e16f, 1e16f) || !rt__within(u, -1e10f, 1e10f) ||
+        !(rt_dot(u, u) >= 1e-20f))
+        return false;
+    p->ray = *ray;
+    p->inverse = rt_vec(rt__inverse(u.x), rt__inverse(u.y), rt__inverse(u.z));
+    p->in = rt_scale(p->inverse, 1.0f - 4.0f * FLT_EPSILON);
+    const int x = p->inverse.x < 0.0f, y = p->inverse.y < 0.0f, z = p->inverse.z < 0.0f;
+    p->octant = x | y << 1 | z << 2;
+    p->in_x = 24 * x;
+    p->in_y = 8 + 24 * y;
+    p->in_z = 16 + 24 * z;
+    p->out_x = 24 - p->in_x;
+    p->out_y = 40 - p->in_y;
+    p->out_z = 56 - p->in_z;
+    if (scene->sphere_count > 0) {
+        p->over_a = 1.0f / rt_dot(u, u);
+        p->over_root = sqrtf(p->over_a);
+    }
+    if (scene->mesh_count == 0)
+        return true;
+    p->shear = rt__shear_of(ray);
+    const int axis = p->shear.axis;
+    rt__put_vec(p->origin, rt_to_float(rt__turned(o, axis)));
+    p->shear_x = (float)p->shear.x;
+    p->shear_y = (float)p->shear.y;
+    p->row[0] = 1 + (axis + 1) % 3;
+    p->row[1] = 1 + (axis + 2) % 3;
+    p->row[2] = 1 + axis;
+    return true;
 }
 
-/* rt__enter, for the boxes k to k + RT__STEP - 1. The box without an inside that stands
- * where there is none is never met. */
-RT__INLINE unsigned rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p,
-                                    float t_max, int k, rt__boxes *t)
+/* rt__enter, for the boxes k to k + RT__STEP - 1: they are met if *t <= *out. The box
+ * without an inside that stands where there is none is never met. */
+RT__INLINE void rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p, float t_max,
+                                int k, rt__boxes *t, rt__boxes *out)
 {
     const float *planes = node->min_x + k;
-    const rt_vec3 o = p->ray.origin, inverse = p->inverse;
+    const rt_vec3 o = p->ray.origin, inverse = p->inverse, less = p->in;
     const rt__boxes zero = {0.0f};
-    const rt__boxes in_x = (rt__eight(planes + p->in_x) - o.x) * inverse.x;
-    const rt__boxes in_y = (rt__eight(planes + p->in_y) - o.y) * inverse.y;
-    const rt__boxes in_z = (rt__eight(planes + p->in_z) - o.z) * inverse.z;
+    const rt__boxes in_x = (rt__eight(planes + p->in_x) - o.x) * less.x;
+    const rt__boxes in_y = (rt__eight(planes + p->in_y) - o.y) * less.y;
+    const rt__boxes in_z = (rt__eight(planes + p->in_z) - o.z) * less.z;
     const rt__boxes out_x = (rt__eight(planes + p->out_x) - o.x) * inverse.x;
     const rt__boxes out_y = (rt__eight(planes + p->out_y) - o.y) * inverse.y;
     const rt__boxes out_z = (rt__eight(planes + p->out_z) - o.z) * inverse.z;
-    const rt__boxes in = rt__bmax(rt__bmax(in_x, in_y), rt__bmax(in_z, zero));
-    const rt__boxes out = rt__bmin(rt__bmin(out_x, out_y), rt__bmin(out_z, zero + t_max));
-    *t = in * (1.0f - 4.0f * FLT_EPSILON);
-    return rt__bat_most(*t, out);
+    *t = rt__bmax(rt__bmax(in_x, in_y), rt__bmax(in_z, zero));
+    *out = rt__bmin(rt__bmin(out_x, out_y), rt__bmin(out_z, t_max - zero));
 }
 
 /* Which spheres of a leaf may the ray meet before t_max? */
@@ -6338,16 +6431,16 @@ RT__INLINE unsigned rt__near_spheres(const rt_bvh_row *row, const rt__probe *p,
     const rt__boxes r = rt__eight(row[4].value + k);
     const rt__boxes ff = rt__bfma(x, x, rt__bfma(y, y, z * z));
     const rt__boxes b =
-        rt__bfma(x, zero + u.x, rt__bfma(y, zero + u.y, z * u.z)) * p->over_a;
-    const rt__boxes lx = rt__bfnma(b, zero + u.x, x);
-    const rt__boxes ly = rt__bfnma(b, zero + u.y, y);
-    const rt__boxes lz = rt__bfnma(b, zero + u.z, z);
+        rt__bfma(x, u.x - zero, rt__bfma(y, u.y - zero, z * u.z)) * p->over_a;
+    const rt__boxes lx = rt__bfnma(b, u.x - zero, x);
+    const rt__boxes ly = rt__bfnma(b, u.y - zero, y);
+    const rt__boxes lz = rt__bfnma(b, u.z - zero, z);
     const rt__boxes ll = rt__bfma(lx, lx, rt__bfma(ly, ly, lz * lz));
-    const rt__boxes reach = rt__bfma(ff, zero + 2e-9f, r * r * 1.001f + 1e-30f) - ll;
+    const rt__boxes reach = rt__bfma(ff, 2e-9f - zero, r * r * 1.001f + 1e-30f) - ll;
     const rt__boxes h = rt__bsqrt(rt__bmax(reach, zero)) * p->over_root;
     const rt__boxes slack = h * 1e-4f + rt__babs(b) * 1e-6f;
     const rt__boxes begin = b - h - slack, end = b + h + slack;
-    return rt__bat_most(zero, reach) & rt__bat_most(begin, zero + t_max) &
+    return rt__bat_most(zero, reach) & rt__bat_most(begin, t_max - zero) &
            rt__bat_most(zero, end);
 }
 
@@ -6379,9 +6472,9 @@ RT__INLINE void rt__shear_corner(const rt_bvh_row *row, const rt__probe *p, int 
     const rt_bvh_row *here = row + 3 * corner;
     const rt__boxes zero = {0.0f};
     const rt__boxes z = rt__eight(here[p->row[2]].value + k) - p->origin[2];
-    *x = rt__bfnma(z, zero + p->shear_x,
+    *x = rt__bfnma(z, p->shear_x - zero,
                    rt__eight(here[p->row[0]].value + k) - p->origin[0]);
-    *y = rt__bfnma(z, zero + p->shear_y,
+    *y = rt__bfnma(z, p->shear_y - zero,
                    rt__eight(here[p->row[1]].value + k) - p->origin[1]);
     *most = rt__bmax(*most, rt__bmax(rt__babs(*x), rt__babs(*y)));
     *most_z = rt__bmax(*most_z, rt__babs(z));
@@ -6405,154 +6498,324 @@ RT__INLINE unsigned rt__near_triangles(const rt_bvh_row *row, const rt__probe *p
     return rt__bat_most(-bound, least) | rt__bat_most(largest, bound);
 }
 
-/* The t of one of them, by the functions of the chapters. */
-RT__INLINE float rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, int kind,
-                                 int k, const rt__probe *p, float t_max)
+/* The nearest shape so far, and in which column of which leaf. */
+typedef struct rt__found {
+    rt__best best;
+    double t;         /* before it was rounded */
+    rt_dvec3 weights; /* of a triangle */
+    int leaf, column;
+} rt__found;
+
+RT__INLINE rt_vec3 rt__column_vec(const rt_bvh_row *row, int column)
 {
-    const rt_vec3 a = rt_vec(row[1].value[k], row[2].value[k], row[3].value[k]);
-    if (kind == RT__SPHERES) {
-        rt_sphere sphere;
-        sphere.center = a;
-        sphere.radius = row[4].value[k];
-        return (float)rt__meet_sphere(&sphere, &p->ray, t_max);
-    }
-    const rt_vec3 b = rt_vec(row[4].value[k], row[5].value[k], row[6].value[k]);
-    if (kind == RT__TRIANGLES) {
-        const rt_vec3 c = rt_vec(row[7].value[k], row[8].value[k], row[9].value[k]);
-        rt_dvec3 weights;
-        return (float)rt__meet_corners(&p->shear, a, b, c, t_max, &weights);
-    }
-    const int number = row->number[k];
-    if (number >= scene->sphere_count + scene->box_count)
-        return rt__meet_other(scene, number, &p->ray, t_max);
+    return rt_vec(row[0].value[column], row[1].value[column], row[2].value[column]);
+}
+
+RT__INLINE rt_sphere rt__column_sphere(const rt_bvh_row *row, int column)
+{
+    rt_sphere sphere;
+    memset(&sphere, 0, sizeof sphere);
+    sphere.center = rt__column_vec(row + 1, column);
+    sphere.radius = row[4].value[column];
+    return sphere;
+}
+
+RT__INLINE rt_box rt__column_box(const rt_bvh_row *row, int column)
+{
     rt_box box;
-    box.min = a;
-    box.max = b;
-    return rt__meet_box(&box, &p->ray, t_max);
+    memset(&box, 0, sizeof box);
+    box.min = rt__column_vec(row + 1, column);
+    box.max = rt__column_vec(row + 4, column);
+    return box;
+}
+
+RT__INLINE rt__corners rt__column_corners(const rt_bvh_row *row, int column)
+{
+    rt__corners corners;
+    corners.a = rt__column_vec(row + 1, column);
+    corners.b = rt__column_vec(row + 4, column);
+    corners.c = rt__column_vec(row + 7, column);
+    return corners;
+}
+
+/* rt__meet_shape, of what the leaf has of it. */
+RT__INLINE double rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, int kind,
+                                  int column, const rt__probe *p, float t_max,
+                                  rt_dvec3 *weights)
+{
+    if (kind == RT__SPHERES) {
+        const rt_sphere sphere = rt__column_sphere(row, column);
+        return rt__meet_sphere(&sphere, &p->ray, t_max);
+    }
+    if (kind == RT__TRIANGLES) {
+        const rt__corners corners = rt__column_corners(row, column);
+        return rt__meet_corners(&p->shear, &corners, t_max, weights);
+    }
+    const int number = row->number[column];
+    if (number >= scene->sphere_count + scene->box_count)
+        return (double)rt__meet_other(scene, number, &p->ray, t_max);
+    const rt_box box = rt__column_box(row, column);
+    return (double)rt__meet_box(&box, &p->ray, t_max);
+}
+
+/* rt__hit_shape, likewise. */
+RT__INLINE bool rt__hit_column(const rt_scene *scene, const rt__found *found,
+                               const rt__probe *p, rt_hit *hit)
+{
+    const rt_bvh_row *row = &scene->bvh->rows[found->leaf >> 2];
+    const int number = found->best.number, kind = found->leaf & 3;
+    const int box = number - scene->sphere_count;
+    if (kind == RT__SPHERES) {
+        const rt_sphere sphere = rt__column_sphere(row, found->column);
+        if (!rt__hit_sphere_at(&sphere, &p->ray, found->t, hit))
+            return false;
+        hit->material = &scene->spheres[number].material;
+        hit->shape = number;
+        return true;
+    }
+    if (kind == RT__TRIANGLES) {
+        const rt__corners corners = rt__column_corners(row, found->column);
+        const rt__other other = rt__other_of(scene, number);
+        rt__hit_corners(&corners, &p->ray, found->t, found->weights, hit);
+        hit->material = &scene->meshes[other.mesh].material;
+        hit->shape = scene->sphere_count + scene->box_count + other.mesh;
+        hit->part = other.part;
+        rt__draw_in(&corners, hit);
+        return true;
+    }
+    if (box >= scene->box_count)
+        return rt__hit_other(scene, number, &p->ray, hit);
+    const rt_box copy = rt__column_box(row, found->column);
+    if (!rt_hit_box(&copy, &p->ray, FLT_MAX, hit))
+        return false;
+    rt__pull_back(&p->ray, hit);
+    hit->material = &scene->boxes[box].material;
+    hit->shape = number;
+    return true;
 }
 
 /* rt__ask_leaf: all in float, and the few that may be met once more in double. */
 RT__INLINE bool rt__ask_rows(const rt_scene *scene, int leaf, const rt__probe *p,
-                             bool any, rt__best *best)
+                             bool any, rt__found *found)
 {
     const rt_bvh_row *row = &scene->bvh->rows[leaf >> 2];
     const int kind = leaf & 3;
+    const float t_max = found->best.t;
     unsigned maybe = 0;
     for (int k = 0; k < 8; k += RT__STEP)
         maybe |= (kind == RT__TRIANGLES ? rt__near_triangles(row, p, k)
-                  : kind == RT__SPHERES ? rt__near_spheres(row, p, best->t, k)
-                                        : rt__near_boxes(row, p, best->t, k))
+                  : kind == RT__SPHERES ? rt__near_spheres(row, p, t_max, k)
+                                        : rt__near_boxes(row, p, t_max, k))
                  << k;
+    maybe &= rt__columns(row);
     for (; maybe != 0; maybe &= maybe - 1u) {
-        const int k = rt__lowest(maybe);
-        const float limit = any ? best->t : rt__beyond(best->t);
-        const float t = rt__meet_column(scene, row, kind, k, p, limit);
-        if (any && t > 0.0f)
+        const int k = rt__lowest(maybe), number = row->number[k];
+        const float limit = any ? t_max : rt__beyond(found->best.t);
+        rt_dvec3 weights;
+        const double t = rt__meet_column(scene, row, kind, k, p, limit, &weights);
+        if (any && t > 0.0)
             return true;
-        rt__consider(best, row->number[k], t);
+        if (rt__is_better(&found->best, number, (float)t)) {
+            found->t = t;
+            if (kind == RT__TRIANGLES)
+                found->weights = weights;
+            found->leaf = leaf;
+            found->column = k;
+            found->best.number = number;
+            found->best.t = (float)t;
+        }
     }
     return false;
 }
 
-/* rt__search. Two things are other: ... */
-RT__INLINE int rt__search_rows(const rt_scene *scene, const rt_ray *ray, float t_max,
-                               bool any)
+/* What waits: as rt__item, but in two arrays, with room for eight that are written at
+ * once though only some of them count. */
+typedef struct rt__stack {
+    float t[RT__WAITING + 8];
+    int inside[RT__WAITING + 8];
+    int count;
+} rt__stack;
+
+#if RT__LANES > 4
+#if RT__LANES == 8
+/* For each of 256 masks: the places of its ones, from the lowest, three bits each. */
+#define RT__ONES(m)                                                                      \
+    (((m)&1u) + ((m) >> 1 & 1u) + ((m) >> 2 & 1u) + ((m) >> 3 & 1u) + ((m) >> 4 & 1u) +  \
+     ((m) >> 5 & 1u) + ((m) >> 6 & 1u))
+#define RT__ONE(m, k) (((m) >> (k)&1u) * (k##u << 3 * RT__ONES((m) & ((1u << (k)) - 1u))))
+#define RT__PLACES(m)                                                                    \
+    (RT__ONE(m, 1) | RT__ONE(m, 2) | RT__ONE(m, 3) | RT__ONE(m, 4) | RT__ONE(m, 5) |     \
+     RT__ONE(m, 6) | RT__ONE(m, 7))
+#define RT__PLACES4(m)                                                                   \
+    RT__PLACES(m), RT__PLACES((m) + 1u), RT__PLACES((m) + 2u), RT__PLACES((m) + 3u)
+#define RT__PLACES16(m)                                                                  \
+    RT__PLACES4(m), RT__PLACES4((m) + 4u), RT__PLACES4((m) + 8u), RT__PLACES4((m) + 12u)
+#define RT__PLACES64(m)                                                                  \
+    RT__PLACES16(m), RT__PLACES16((m) + 16u), RT__PLACES16((m) + 32u),                   \
+        RT__PLACES16((m) + 48u)
+static const uint32_t rt__places[256] = {RT__PLACES64(0u), RT__PLACES64(64u),
+                                         RT__PLACES64(128u), RT__PLACES64(192u)};
+#endif
+
+RT__INLINE __m256i rt__unpack(uint32_t places)
 {
-    struct {
-        float t;
-        int inside;
-    } waiting[RT__WAITING];
-    if (!rt__is_finite(ray->origin) || !rt__is_finite(ray->direction))
-        return -1;
-    const float uu = rt_dot(ray->direction, ray->direction);
-    if (!(uu >= 1e-20f && uu <= 1e20f))
-        return rt__search(scene, ray, t_max, any);
-    const rt__probe p = rt__probe_of(ray);
-    const rt_bvh_node *nodes = scene->bvh->nodes, *node = nodes;
-    rt__best best;
-    best.number = -1;
-    best.t = t_max;
-    int count = 0;
+    return _mm256_srlv_epi32(_mm256_set1_epi32((int)places),
+                             _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21));
+}
+
+/* Enter a node: returns what is inside of one of the boxes that are met, if *met, of the
+ * nearest as far as order knows it; the others wait on the stack, the next last. If any
+ * will do, so does any order. */
+RT__INLINE int rt__enter_node(rt__stack *stack, const rt_bvh_node *node,
+                              const rt__probe *p, float t_max, bool any, bool *met)
+{
+    rt__boxes t, out;
+    rt__enter_boxes(node, p, t_max, 0, &t, &out);
+    unsigned in = rt__bat_most(t, out);
+    *met = in != 0;
+    if (in == 0)
+        return 0;
+    if ((in & (in - 1u)) == 0)
+        return node->inside[__builtin_ctz(in)];
+    __m256i inside = _mm256_loadu_si256((const __m256i *)(const void *)node->inside);
+    uint32_t places = 0;
+    if (!any) {
+        memcpy(&places, node->order + 3 * p->octant, sizeof places);
+        const __m256i order = rt__unpack(places);
+        t = (rt__boxes)_mm256_permutevar8x32_ps((__m256)t, order);
+        out = (rt__boxes)_mm256_permutevar8x32_ps((__m256)out, order);
+        inside = _mm256_permutevar8x32_epi32(inside, order);
+        in = rt__bat_most(t, out);
+    }
+    int next;
+    if (any) {
+        next = node->inside[__builtin_ctz(in)];
+        in &= in - 1u;
+    } else {
+        const int last = 31 - __builtin_clz(in);
+        next = node->inside[places >> 3 * last & 7u];
+        in ^= 1u << last;
+    }
+#if RT__LANES == 8
+    const __m256i places_in = rt__unpack(rt__places[in]);
+    const __m256 t_in = _mm256_permutevar8x32_ps((__m256)t, places_in);
+    const __m256i inside_in = _mm256_permutevar8x32_epi32(inside, places_in);
+#else
+    const __m256 t_in = _mm256_maskz_compress_ps((__mmask8)in, (__m256)t);
+    const __m256i inside_in = _mm256_maskz_compress_epi32((__mmask8)in, inside);
+#endif
+    _mm256_storeu_ps(stack->t + stack->count, t_in);
+    _mm256_storeu_si256((__m256i *)(void *)(stack->inside + stack->count), inside_in);
+    stack->count += __builtin_popcount(in);
+    return next;
+}
+#else
+RT__INLINE int rt__enter_node(rt__stack *stack, const rt_bvh_node *node,
+                              const rt__probe *p, float t_max, bool any, bool *met)
+{
+    rt__boxes t[8 / RT__STEP], out;
+    unsigned in = 0;
+    for (int k = 0; k < 8; k += RT__STEP) {
+        rt__enter_boxes(node, p, t_max, k, &t[k / RT__STEP], &out);
+        in |= rt__bat_most(t[k / RT__STEP], out) << k;
+    }
+    uint32_t order;
+    memcpy(&order, node->order + 3 * p->octant, sizeof order);
+    (void)any;
+    for (int i = 0; i < 8; i++, order >>= 3) {
+        const unsigned k = order & 7u;
+        stack->t[stack->count] = t[k / RT__STEP][k % RT__STEP];
+        stack->inside[stack->count] = node->inside[k];
+        stack->count += (int)(in >> k & 1u);
+    }
+    *met = in != 0;
+    stack->count -= *met;
+    return stack->inside[stack->count];
+}
+#endif
+
+/* rt__search. */
+RT__INLINE bool rt__search_rows(const rt_scene *scene, const rt__probe *p, bool any,
+                                rt__found *found)
+{
+    const rt_bvh_node *nodes = scene->bvh->nodes;
+    rt__stack stack;
+    int inside = 0;
+    bool met;
+    stack.count = 0;
     for (;;) {
-        rt__boxes t[8 / RT__STEP];
-        unsigned in = 0;
-        for (int k = 0; k < 8; k += RT__STEP)
-            in |= rt__enter_boxes(node, &p, best.t, k, &t[k / RT__STEP]) << k;
-        int inside = 0;
-        bool pop = in == 0;
-        if (in != 0) {
-            const float *times = (const float *)t;
-            int k = rt__lowest(in);
-            inside = node->inside[k];
-            in &= in - 1u;
-            if (in != 0) {
-                float first = times[k];
-                do {
-                    k = rt__lowest(in);
-                    in &= in - 1u;
-                    const int next = node->inside[k];
-                    const float t2 = times[k];
-                    const bool nearer = !any && t2 < first;
-                    waiting[count].t = nearer ? first : t2;
-                    waiting[count++].inside = nearer ? inside : next;
-                    inside = nearer ? next : inside;
-                    first = nearer ? t2 : first;
-                } while (in != 0);
-            }
+        inside = rt__enter_node(&stack, nodes - inside, p, found->best.t, any, &met);
+        while (!met || inside >= 0) {
+            if (met && rt__ask_rows(scene, inside, p, any, found))
+                return true;
+            do {
+                if (stack.count == 0)
+                    return found->best.number >= 0;
+                stack.count--;
+            } while (stack.t[stack.count] > found->best.t);
+            inside = stack.inside[stack.count];
+            met = true;
         }
-        for (;;) {
-            if (pop) {
-                do {
-                    if (count == 0)
-                        return best.number;
-                    count--;
-                } while (waiting[count].t > best.t);
-                inside = waiting[count].inside;
-            }
-            if (inside < 0)
-                break;
-            if (rt__ask_rows(scene, inside, &p, any, &best))
-                return 0;
-            pop = true;
-        }
-        node = nodes - inside;
     }
 }
 
-/* The number of the nearest shape, or -1. */
-RT__NOINLINE int rt__nearest_in_tree(const rt_scene *scene, const rt_ray *ray,
-                                     float t_max)
+/* The nearest hit, of a ray that is fit. */
+RT__NOINLINE bool rt__nearest_of(const rt_scene *scene, const rt__probe *p, float t_max,
+                                 rt_hit *hit)
 {
-    return rt__search_rows(scene, ray, t_max, false);
+    rt__found found;
+    found.best.number = -1;
+    found.weights = rt_dvec(0.0, 0.0, 0.0);
+    found.best.t = t_max;
+    return rt__search_rows(scene, p, false, &found) &&
+           rt__hit_column(scene, &found, p, hit);
 }
 
-RT__NOINLINE bool rt__any_in_tree(const rt_scene *scene, const rt_ray *ray, float t_max)
+RT__NOINLINE bool rt__any_of(const rt_scene *scene, const rt__probe *p, float t_max)
 {
-    return rt__search_rows(scene, ray, t_max, true) >= 0;
+    rt__found found;
+    found.best.number = -1;
+    found.best.t = t_max;
+    return rt__search_rows(scene, p, true, &found);
 }
 
-/* For who asks for one ray. Vectors raise exceptions that the chapters do not: traps off,
+/* rt__intersect_bvh and rt__occluded_bvh, for rays in lanes. */
+RT__NOINLINE bool rt__nearest_in_tree(const rt_scene *scene, const rt_ray *ray,
+                                      rt_hit *hit)
+{
+    rt__probe p;
+    return rt__set_probe(&p, scene, ray) ? rt__nearest_of(scene, &p, FLT_MAX, hit)
+                                         : rt__intersect_bvh(scene, ray, hit);
+}
+
+RT__NOINLINE bool rt__any_in_tree(const rt_scene *scene, const rt_ray *ray)
+{
+    rt__probe p;
+    return rt__set_probe(&p, scene, ray) ? rt__any_of(scene, &p, 1.0f)
+                                         : rt__occluded_bvh(scene, ray, 1.0f);
+}
+
+/* For who asks for one ray. Only rays that are almost parallel to an axis raise
+ * exceptions that the chapters do not, since products may overflow: with traps off then,
  * and the flags put back. (The empty instructions keep the search in between.) */
-static int rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_max,
-                            bool any)
+static bool rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_max,
+                             rt_hit *hit)
 {
-#ifdef RT__X86
-    const unsigned before = _mm_getcsr();
-    _mm_setcsr(before | 0x1f80u);
-#else
+    rt__probe p;
+    if (!rt__set_probe(&p, scene, ray)) {
+        const int number = rt__search(scene, ray, t_max, !hit);
+        return number >= 0 && (!hit || rt__hit_shape(scene, number, ray, 0.0, hit));
+    }
+    if (rt__within(p.inverse, -1e22f, 1e22f))
+        return hit ? rt__nearest_of(scene, &p, t_max, hit) : rt__any_of(scene, &p, t_max);
     fenv_t before;
     feholdexcept(&before);
-#endif
     __asm__ volatile("" : "+r"(scene) : : "memory");
-    int number = any ? (rt__any_in_tree(scene, ray, t_max) ? 0 : -1)
-                     : rt__nearest_in_tree(scene, ray, t_max);
-    __asm__ volatile("" : "+r"(number) : : "memory");
-#ifdef RT__X86
-    _mm_setcsr(before);
-#else
+    int found =
+        hit ? rt__nearest_of(scene, &p, t_max, hit) : rt__any_of(scene, &p, t_max);
+    __asm__ volatile("" : "+r"(found) : : "memory");
     fesetenv(&before);
-#endif
-    return number;
+    return found != 0;
 }
 
 RT__INLINE rt_vec3 rt__lane(const rt__f3 *v, int lane)
@@ -6579,9 +6842,8 @@ RT__NOINLINE void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
         rt_hit hit;
         ray.origin = rt__lane(origin, lane);
         ray.direction = rt__lane(direction, lane);
-        const int number = rt__nearest_in_tree(scene, &ray, FLT_MAX);
         hits->kind[lane] = -1.0f;
-        if (number < 0 || !rt__hit_shape(scene, number, &ray, 0.0, &hit))
+        if (!rt__nearest_in_tree(scene, &ray, &hit))
             continue;
         hits->kind[lane] = hit.material->mirror ? 1.0f : 0.0f;
         hits->left[lane] = RT__NOWHERE;
@@ -6604,7 +6866,7 @@ RT__NOINLINE rt__m rt__shade_in_tree(const rt_scene *scene, const rt__f3 *origin
         rt_ray ray;
         ray.origin = rt__lane(origin, lane);
         ray.direction = rt__lane(direction, lane);
-        if (rt__any_in_tree(scene, &ray, 1.0f))
+        if (rt__any_in_tree(scene, &ray))
             blocked[lane] = 1.0f;
     }
     return rt__less(rt__all(0.0f), blocked);
@@ -6703,6 +6965,9 @@ RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
         shade = rt__shade_all(job->table, p, u);
         shade.sure &= rt__no(behind);
         shade.may |= behind;
+        const rt__f end = rt__all(1.0f);
+        if (job->table->count < job->table->all)
+            shade.may |= rt__near_others(job->table, &p->origin, &u, &end);
     }
     const rt__m ask = lit & shade.may & rt__no(shade.sure);
     if (rt__any(ask))
@@ -7033,7 +7298,7 @@ RT__INLINE rt__f rt__of_surface(const rt__job *job, const float *column, size_t 
                                 rt__i shape, rt__m lanes)
 {
     return job->table->few
-               ? rt__pick(column, shape, job->table->count)
+               ? rt__pick(column, shape, job->table->all)
                : rt__gather(job->scene->surfaces, offset, shape, rt__bits(lanes));
 }
 
@@ -7097,7 +7362,7 @@ RT__NOINLINE rt__m rt__inside(const rt__job *job, const rt__hits *hits, rt__m la
     const rt__table *s = job->table;
     const rt__f zero = rt__all(0.0f);
     rt__f inside = zero;
-    if (s->few) {
+    if (s->few && s->count == s->all) {
         const rt__f3 place = rt__vpick(&s->place, hits->shape, s->count);
         const rt__f3 max = rt__vpick(&s->max, hits->shape, s->count);
         const rt__m sphere = rt__less(zero, rt__pick(s->radius, hits->shape, s->count));
@@ -7882,7 +8147,7 @@ static rt_status rt__run_packets(rt__job *job)
     job->table = &table;
     job->step = rt__is_part_two(scene) ? rt__step_packets_mis : rt__step_packets;
     job->together = RT__LANES * RT__FLIGHT;
-    job->ticks = table.few ? 64 : 1;
+    job->ticks = table.few && table.count == table.all ? 64 : 1;
     return rt__run(job);
 }
 

@@ -1,7 +1,7 @@
 /* Demo 17: your own shape.
  *
  * Before  the shapes that rt.h knows.
- * Now     any shape, if you can say where a ray meets it first: a cylinder of marble, as a
+ * Now     any shape, if you can say where a ray meets it first: a cylinder of wood, as a
  *         pedestal for the teapot.
  * Run     make demo17                              (or ARGS="--mesh bunny.obj") */
 #include "live.h"

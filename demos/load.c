@@ -52,6 +52,7 @@ typedef struct head {
     int position_count, triangle_count;
 } head;
 
+static const char no_triangles[] = "there are no triangles in it";
 static const char no_such_corner[] = "a triangle has a corner that there is not";
 
 const char *load_lacks(void)
@@ -79,9 +80,11 @@ static void set_limits(void)
 /* NULL, or what assimp should not work on. */
 static const char *fault_of(const struct aiScene *scene)
 {
+    bool some = false;
     for (unsigned m = 0; m < scene->mNumMeshes; m++) {
         const struct aiMesh *mesh = scene->mMeshes[m];
         for (unsigned f = 0; f < mesh->mNumFaces; f++) {
+            some = some || mesh->mFaces[f].mNumIndices > 2;
             if (mesh->mFaces[f].mNumIndices > CORNERS)
                 return "a polygon has more than 1000 corners";
             for (unsigned k = 0; k < mesh->mFaces[f].mNumIndices; k++)
@@ -89,7 +92,7 @@ static const char *fault_of(const struct aiScene *scene)
                     return no_such_corner;
         }
     }
-    return NULL;
+    return some ? NULL : no_triangles;
 }
 
 /* The file, in triangles, its parts where they belong, corners that are the same only once. */
@@ -136,7 +139,7 @@ static void hand_over(const char *path, FILE *to)
             triangles += is_triangle(&scene->mMeshes[m]->mFaces[f]);
     }
     if (scene && triangles == 0)
-        snprintf(h.why, sizeof h.why, "there are no triangles in it");
+        snprintf(h.why, sizeof h.why, "%s", no_triangles);
     else if (triangles > TRIANGLES || positions > 3 * (uint64_t)TRIANGLES)
         snprintf(h.why, sizeof h.why, "more than %d triangles", TRIANGLES);
     h.position_count = *h.why ? 0 : (int)positions;

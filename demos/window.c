@@ -14,13 +14,13 @@
 #endif
 
 static const char *const window_help[] = {
-    "drag        the ball, the cube, the mirror, the lamp; elsewhere: go round",
+    "drag        a ball, the cube, the teapot, the lamp; elsewhere: go round",
     "  + Shift   over the floor and not up",
     "right drag  the camera sideways;  wheel, PgUp, PgDn: nearer, farther",
     "  wheel     on the lamp its size, on gloss its sharpness, on glass its index",
     "arrows      go round (left, right: the sample, while a ray is shown)",
     "1 ... 7     the same view in chapter 1 ... 7;  8 glass, 9 lamps, 0 gloss;",
-    ",  .         one picture back, one on: also to lens and sky, and patterns",
+    ",  .         one picture back, one on: also to those that have no key",
     "b (hold)    the other picture; o: which one that is",
     "click       show the ray of this pixel; i: and no more",
     "v           the plan from above, or from the side",

@@ -11,7 +11,7 @@ calls() { # but for those of vectors, which are all over the place
     sed 's/\/\*.*//; /^ \*/d' "$1" | grep -oE 'rt_[a-z_]+\(' | tr -d '(' | sort -u |
         grep -vxE 'rt_(vec|add|sub|mul|scale|dot|length|at)'
 }
-scene() { grep -oE 'scene_[a-z]+' "$1" | head -1; }
+scene() { grep -oE 'scene_[a-z_]+' "$1" | head -1; }
 list() { sed 's/.*/`&`/' | paste -s -d , | sed 's/,/, /g'; }
 say() { [ -z "$2" ] || printf '%s\n' "- $1: $2"; }
 

@@ -9,6 +9,7 @@ trap 'rm -rf "$work"' EXIT
 export OMP_WAIT_POLICY=passive LC_ALL=C
 flags="-std=c99 -O2 -fno-math-errno -ffp-contract=off -w -I."
 openmp=$(.ci/deps openmp "$cc")
+libs="$(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) $(pkg-config --libs assimp 2>/dev/null) -lm"
 
 field() { # FILE NAME: from the comment at the top of a mistake, on one line
     awk -v name="$2" 'index($0, " * " name ":") == 1 { on = 1; sub(/^ \* [A-Z][a-z]*: */, ""); print; next }
@@ -17,18 +18,22 @@ field() { # FILE NAME: from the comment at the top of a mistake, on one line
 }
 
 stage() { # NAME: the picture of its chapter, from 11 on
-    case $1 in 1[1-5]-*) echo "-DSTAGE=$((${1%%-*} - 3))" ;; esac
+    case $1 in 1[1-7]-*) echo "-DSTAGE=$((${1%%-*} - 3))" ;; esac
 }
 
 render() { # NAME SUBMISSION OPTIONS
     grep -q RT_IMPLEMENTATION "$2" && static=-DRT_STATIC || static= # program.a has another
-    $cc $flags $static $openmp $(stage "$1") "-DSUBMISSION=\"$2\"" -o "$work/$1" tests/classroom/show.c \
-        "$build/program.a" $(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) -lm &&
-        "$work/$1" 240 180 --samples 16 --no-window --quiet --out "$work/$1.png" $3
+    case $3 in
+    edges) show=show_edges options="256 256 --samples 1" ;; # a wall, its rays along edges
+    *) show=show options="240 180 --samples 16 $3" ;;
+    esac
+    $cc $flags $static $openmp $(stage "$1") "-DSUBMISSION=\"$2\"" -o "$work/$1" tests/classroom/$show.c \
+        "$build/program.a" $libs &&
+        "$work/$1" --no-window --quiet --out "$work/$1.png" $options
 }
 
 red() { # NAME FILE: which test of its chapter goes red on it, the first
-    case $1 in 10-*) test=18 ;; 1[1-5]-*) test=$((${1%%-*} + 9)) ;; *) test=0${1%%-*} ;; esac
+    case $1 in 10-*) test=18 ;; 1[1-7]-*) test=$((${1%%-*} + 9)) ;; *) test=0${1%%-*} ;; esac
     test=$(basename "$(ls tests/"$test"_*.c)" .c)
     $cc -std=c99 -O1 -ffp-contract=off -w -I. -include "$2" -o "$work/$1.test" "tests/$test.c" \
         $(pkg-config --cflags --libs cmocka libcjson) -lm || return
@@ -41,7 +46,8 @@ one() { # FILE: render it, and write its part of the page
     render "$name" "$1" "$options" || exit 1
     test=$(red "$name" "$1")
     [ -n "$test" ] || { echo "$1: no test goes red" >&2; exit 1; }
-    case $name in 1[1-5]-*) right=${name%%-*}-right ;; *) case $options in '') right=right ;; *denoise*) right=right-clean ;; *) right=right-direct ;; esac ;; esac
+    case $name in 1[1-7]-*) right=${name%%-*}-right ;; *) case $options in '') right=right ;; *denoise*) right=right-clean ;; *) right=right-direct ;; esac ;; esac
+    [ "$options" = edges ] && right=16-edges thing="a wall without holes" || thing="the room as it should be"
     title=$(sed -n '1s/^\/\* //p' "$1")
     cat >"$work/$name.md" <<END
 
@@ -49,7 +55,7 @@ one() { # FILE: render it, and write its part of the page
 
 | right | wrong |
 |---|---|
-| ![the room as it should be](images/mistakes/$right.png) | ![$title](images/mistakes/$name.png) |
+| ![$thing](images/mistakes/$right.png) | ![$title](images/mistakes/$name.png) |
 
 **Symptom:** $(field "$1" Symptom). **Cause:** $(field "$1" Cause). **Cure:** $(field "$1" Cure).
 Red: $test. The code: [mistakes/$name.c](mistakes/$name.c).
@@ -58,8 +64,8 @@ END
 
 echo '#include "rt.h"' >"$work/none.c"
 render right "$work/none.c" "" && render right-direct "$work/none.c" "--bounces 0" &&
-    render right-clean "$work/none.c" --denoise || exit 1
-for chapter in $(ls docs/mistakes | sed -n 's/^\(1[1-5]\)-.*/\1/p' | uniq); do
+    render right-clean "$work/none.c" --denoise && render 16-edges "$work/none.c" edges || exit 1
+for chapter in $(ls docs/mistakes | sed -n 's/^\(1[1-7]\)-.*/\1/p' | uniq); do
     render "$chapter-right" "$work/none.c" "" || exit 1
 done
 for file in docs/mistakes/*.c; do

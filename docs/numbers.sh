@@ -28,6 +28,6 @@ for file in docs/numbers/*.c docs/numbers/*.sh; do
         { echo "$record is stale: docs/numbers.sh --times" >&2; exit 1; }
     cp "$record" "$out"
 done
-for chapter in 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
+for chapter in 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17; do
     docs/changed.sh $chapter "$out/scenes.txt" >"$out/$chapter-changed.txt" || exit 1
 done

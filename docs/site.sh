@@ -4,7 +4,7 @@
 command -v pandoc >/dev/null ||
     { echo "note: pandoc is missing (Debian: apt-get install pandoc): no site, no PDF"; exit 0; }
 site=${BUILD:-build}/site
-chapters="01-sphere 02-walls 03-cube 04-shadows 05-gamma 06-mirror 07-monte-carlo 08-faster 09-less-noise 10-clean 11-glass 12-lamps 13-gloss 14-lens-and-sky 15-patterns"
+chapters="01-sphere 02-walls 03-cube 04-shadows 05-gamma 06-mirror 07-monte-carlo 08-faster 09-less-noise 10-clean 11-glass 12-lamps 13-gloss 14-lens-and-sky 15-patterns 16-triangles 17-own-shape"
 others="window mistakes words report teaching performance correctness"
 rm -rf "$site"
 mkdir -p "$site" || exit 1

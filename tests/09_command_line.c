@@ -23,7 +23,7 @@ static void test_all_write_a_png_to_build(void **state)
 {
     (void)state;
     assert_int_equal(mkdir("build", 0777), 0);
-    for (int i = 1; i <= 15; i++) {
+    for (int i = 1; i <= 17; i++) {
         static unsigned char bytes[100000];
         char arguments[100], path[40];
         snprintf(arguments, sizeof arguments, "demo%02d 40 30 --samples 2 --no-window",
@@ -287,8 +287,14 @@ static void test_explain_adds_up_to_the_pixel(void **state)
     explain_adds_up("demo11", 8);
     explain_adds_up("demo13", 8);
     explain_adds_up("demo14", 8);
+    explain_adds_up("demo16", 8);
+    explain_adds_up("demo17", 8);
     expect(0, "glass: refracted, in", "demo11 40 30 --samples 3 --explain 21,23");
     expect(0, "aimed at, weight", "demo12 40 30 --samples 3 --explain 12,18");
+    expect(0, "the teapot, triangle |, u 0.|, v 0.",
+           "demo16 40 30 --samples 3 --explain 31,22");
+    expect(0, "camera ray meets the pedestal at t",
+           "demo17 40 30 --samples 3 --explain 31,24");
     expect(2, "--explain: 40,0 is not in a picture of 40 x 30",
            "demo07 40 30 --explain 40,0");
     expect(2, "--explain: '7' is not a pixel", "demo08 --explain 7");
@@ -302,9 +308,12 @@ static void test_demos_of_part_two_have_the_pictures_of_rt_h(void **state)
 {
     /* By their own routines, which take the place of rt.h's in the program. */
     (void)state;
-    const rt_scene *scenes[] = {&scene_glass, &scene_lamps, &scene_gloss, &scene_sky,
-                                &scene_patterns};
-    for (int k = 0; k < 5; k++) {
+    const rt_scene *scenes[] = {&scene_glass,    &scene_lamps,    &scene_gloss,
+                                &scene_sky,      &scene_patterns, &scene_triangles,
+                                &scene_own_shape};
+    room_prepare(ON_THE_FLOOR);
+    room_prepare(ON_THE_PEDESTAL);
+    for (int k = 0; k < 7; k++) {
         static rt_vec3 pixels[40 * 30];
         char arguments[120];
         rt_image image = {.width = 40, .height = 30, .pixels = pixels};

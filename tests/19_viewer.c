@@ -219,12 +219,18 @@ static void test_the_pictures_of_part_two(void **state)
     settle();
     shows(&scene_sky, &room_lens, 11);
     viewer_key(&v, '.', false);
-    viewer_key(&v, '.', false); /* there are no more */
     settle();
     shows(&scene_patterns, NULL, 12);
     viewer_key(&v, ',', false);
     settle();
     shows(&scene_sky, &room_lens, 11);
+    viewer_set_stage(&v, 13);
+    settle();
+    shows(&scene_triangles, NULL, 13);
+    viewer_key(&v, '.', false);
+    viewer_key(&v, '.', false); /* there are no more */
+    settle();
+    shows(&scene_own_shape, NULL, 14);
     viewer_key(&v, '1', false);
     viewer_key(&v, ',', false);
     settle();
@@ -294,6 +300,58 @@ static void test_exposure_is_a_factor(void **state)
     assert_true(v.exposure == 20.0f);
     viewer_key(&v, 'r', false);
     assert_true(v.exposure == 0.0f);
+}
+
+/* The teapot on the floor, and on the pedestal; the pedestal. */
+static const float pot_x = 0.76f * W, pot_y = 0.77f * H, pedestal_y = 0.81f * H;
+
+/* What a drag does to the picture, it has also done to the tree: the same by a new one. */
+static void test_mesh_and_pedestal_move(void **state)
+{
+    (void)state;
+    for (int stage = 13; stage <= 14; stage++) {
+        const float y = stage == 13 ? pot_y : pedestal_y;
+        viewer_set_stage(&v, stage);
+        settle();
+        unsigned char before[ALL * 3];
+        memcpy(before, shown(), sizeof before);
+        const rt_vec3 foot = room_foot, base = room_cylinder.base;
+        const rt_sphere ball = room_spheres[0];
+        viewer_press(&v, pot_x, y, BUTTON_MAIN);
+        assert_int_equal(v.thing, stage == 13 ? MESH : PEDESTAL);
+        viewer_move(&v, pot_x - 6, y, true);
+        viewer_release(&v);
+        assert_true(room_foot.x < foot.x - 5 && room_foot.y == foot.y);
+        assert_true((room_cylinder.base.x < base.x - 5) == (stage == 14));
+        assert_true(rt_is_zero(rt_sub(room_spheres[0].center, ball.center)));
+        settle();
+        assert_memory_not_equal(before, shown(), sizeof before);
+        rt_scene plain = *live_scene(stage);
+        plain.bvh = NULL;
+        shows(&plain, NULL, stage);
+        live_reset();
+        viewer_set_stage(&v, stage);
+        settle();
+        assert_memory_equal(before, shown(), sizeof before);
+    }
+}
+
+static void test_the_wheel_on_mesh_and_pedestal(void **state)
+{
+    (void)state;
+    viewer_set_stage(&v, 14);
+    settle();
+    viewer_move(&v, pot_x, 0.66f * H, false);
+    viewer_wheel(&v, 1);
+    assert_int_equal(v.tuned, MESH);
+    assert_true(mesh_surfaces[ROOM_MESH].shininess > 500);
+    const float height = room_cylinder.height;
+    viewer_move(&v, pot_x, pedestal_y, false);
+    viewer_wheel(&v, -1);
+    assert_int_equal(v.tuned, PEDESTAL);
+    assert_true(room_cylinder.height < height);
+    settle(); /* and with it what stands on it */
+    shows(&scene_own_shape, NULL, 14);
 }
 
 /* Paths of part two are told as they happen. */
@@ -516,6 +574,8 @@ int main(void)
         TEST(test_every_stage_has_its_picture),
         TEST(test_the_pictures_of_part_two),
         TEST(test_the_wheel_changes_what_it_is_over),
+        TEST(test_mesh_and_pedestal_move),
+        TEST(test_the_wheel_on_mesh_and_pedestal),
         TEST(test_exposure_is_a_factor),
         TEST(test_the_path_says_what_happens),
         TEST(test_held_is_the_chapter_before),

@@ -30,11 +30,12 @@ static inline void exact_add(exact_sum *s, double x)
     s->count = kept;
 }
 
-/* x y z of floats: x y fits into a double, and is the sum of two floats. (While it is neither so
- * small nor so large that a float has no digits for it.) */
+/* x y z of floats: x y fits into a double, and is cut into two numbers of at most 27 bits (G.
+ * Dekker, 1971), so that each of them times z fits, too. */
 static inline void exact_add_product(exact_sum *s, float x, float y, double z)
 {
-    const double xy = (double)x * (double)y, head = (double)(float)xy;
+    const double xy = (double)x * (double)y, large = 134217729.0 * xy; /* 2^27 + 1 */
+    const double head = large - (large - xy);
     exact_add(s, head * z);
     exact_add(s, (xy - head) * z);
 }

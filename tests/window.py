@@ -166,7 +166,8 @@ def expected(demo, *arguments):
 
 SMALL = ("160", "120", "--samples", "4")
 NAMES = ["", "sphere", "walls", "cube", "shadows", "gamma", "mirror", "indirect light"]
-PART_TWO = {11: "glass", 12: "lamps", 13: "gloss", 14: "lens and sky", 15: "patterns"}
+PART_TWO = {11: "glass", 12: "lamps", 13: "gloss", 14: "lens and sky", 15: "patterns",
+            16: "triangles", 17: "your own shape"}
 
 
 def test_the_stages_are_the_pictures_of_the_demos(display):
@@ -183,7 +184,8 @@ def test_the_stages_are_the_pictures_of_the_demos(display):
 def test_the_pictures_of_part_two(display):
     window = Window(display, "demo12", *SMALL)
     window.wait("4 samples, .*finished")
-    for key, chapter in (("8", 11), ("9", 12), ("0", 13), ("period", 14), ("period", 15)):
+    for key, chapter in (("8", 11), ("9", 12), ("0", 13), ("period", 14), ("period", 15),
+                         ("period", 16), ("period", 17)):
         window.key(key)
         window.wait(r"%d %s.*, 4 samples, .*finished" % (chapter, PART_TWO[chapter]))
         picture, _ = window.save()

@@ -1,4 +1,5 @@
 /* What is in the scenes of the demos, for docs/changed.sh. */
+#define RT_IMPLEMENTATION
 #include "demos/scene.h"
 #include <stdio.h>
 
@@ -22,10 +23,15 @@ static void describe(const char *name, const rt_scene *scene)
         if (s->pattern)
             printf(", one with a pattern");
     }
-    if (scene->surfaces && scene->surfaces[ROOM_CUBE].eta > 0)
+    if (scene->box_count > 0 && scene->surfaces && scene->surfaces[ROOM_CUBE].eta > 0)
         printf(", the box of amber");
-    if (scene->surfaces && scene->surfaces[ROOM_CUBE].pattern)
+    if (scene->box_count > 0 && scene->surfaces && scene->surfaces[ROOM_CUBE].pattern)
         printf(", the box with a pattern");
+    for (int i = 0; i < scene->mesh_count; i++)
+        printf(", a mesh of %d triangles with a gloss of %g",
+               scene->meshes[i].triangle_count, scene->surfaces[ROOM_MESH].shininess);
+    if (scene->custom_shape_count > 0)
+        printf(", a shape of one's own with a pattern");
     for (int i = 0; i < scene->lamp_count; i++)
         printf(", a lamp of radius %g and %g W/sr", scene->lamps[i].radius,
                scene->lamps[i].intensity.x);
@@ -46,4 +52,8 @@ int main(void)
     describe("gloss", &scene_gloss);
     describe("sky", &scene_sky);
     describe("patterns", &scene_patterns);
+    room_prepare(ON_THE_FLOOR);
+    room_prepare(ON_THE_PEDESTAL);
+    describe("triangles", &scene_triangles);
+    describe("own_shape", &scene_own_shape);
 }

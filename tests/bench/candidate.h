@@ -9,8 +9,7 @@ extern "C" {
 
 typedef struct candidate {
     const char *name;
-    /* Make ready for a scene of spheres, or of one mesh: all that is not work of the build.
-     * NULL: this one does not know such shapes. */
+    /* Make ready for a scene of spheres, or of one mesh: all that is not work of the build. */
     void *(*open)(const rt_scene *scene, int threads);
     void (*build)(void *tree);
     size_t (*bytes)(

@@ -7,14 +7,15 @@
  *     build/bench/rays 3 1e6              afterwards, without compiling: a row each
  *
  * A SCENE is icosphere, landscape or sponge, meshes of 1.3, 1.0 and 0.7 million triangles; or a
- * number of spheres, at most 1e7. Of each row, tab between its values: scene,
- * shapes, who; millions of rays per second, first the camera's rays of 640 x 480 pixels, then
- * one to the light from each hit that faces it, then one into a direction at random (cosine)
- * from each hit; seconds for the build, on one thread and on all; bytes held per shape; how many
- * of the rays hit something where rt.h's hit nothing, or the other way round.
+ * number of spheres, at most 1e7. A row, tabs between its values: scene, shapes, who; millions of
+ * rays per second, first the camera's rays of 640 x 480 pixels, then one to the light from each
+ * hit that faces it, then one into a random direction (cosine) from each hit; seconds for the
+ * build, on one thread and on all; bytes held per shape; how many of the rays hit something where
+ * rt.h's hit nothing, or the other way round.
  *
- * Everybody asks in turns, and the best round counts. Rays are timed by the clock of the
- * program, which stands still while others have the core, builds by the one on the wall. */
+ * Everybody asks in turns, and the best round counts. What one thread does is timed by the clock
+ * of the program, which stands still while others have the core; the build on all threads by the
+ * one on the wall. */
 #define _POSIX_C_SOURCE 200112L /* clock_gettime, sysconf */
 #include <stddef.h>
 #include <stdlib.h>
@@ -176,70 +177,73 @@ typedef struct result {
     int different;
 } result;
 
+static double program_seconds(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
 static void *build(const candidate *c, const rt_scene *scene, int threads, double *best)
 {
     void *tree = c->open(scene, threads);
-    if (!tree)
-        return NULL;
-    const double start = seconds();
+    const double start = threads == 1 ? program_seconds() : seconds();
     c->build(tree);
-    *best = fmin(*best, seconds() - start);
+    *best = fmin(*best, (threads == 1 ? program_seconds() : seconds()) - start);
     return tree;
 }
 
-static void ask(const candidate *c, void *tree, int kind, const ray_list *list,
-                float *answers, double *best)
-{
-    const clock_t start = clock();
-    (kind == SHADOW ? c->blocked : c->nearest)(tree, list->rays, list->count, answers);
-    *best = fmin(*best, (double)(clock() - start) / CLOCKS_PER_SEC);
-}
-
-/* Everybody in turns, and again for so many rounds. */
-static void measure(const char *name, const rt_scene *scene, const rt_camera *camera,
-                    float above, int shapes, int rounds)
+/* The trees stay only when all have been built for the last time: Embree has one team of threads
+ * for all of its devices. */
+static void build_in_turns(const rt_scene *scene, int rounds, void **trees,
+                           result *results)
 {
     const int processors = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    result results[CANDIDATES];
-    void *trees[CANDIDATES];
-    for (int c = 0; c < CANDIDATES; c++)
-        results[c] = (result){{1e30, 1e30}, {1e30, 1e30, 1e30}, 0, 0};
-    /* Trees stay only when all have been built for the last time: Embree has one team of
-     * threads for all of its devices. */
-    for (int round = 0; round < (shapes > 100000 ? 2 : rounds); round++)
+    for (int round = 0; round < (rounds < 3 ? rounds : 3); round++)
         for (int c = 0; c < CANDIDATES; c++)
             for (int all = 0; all < 2; all++) {
-                trees[c] = build(candidates[c], scene, all ? processors : 1,
-                                 &results[c].build[all]);
-                if (!trees[c])
-                    continue;
-                results[c].bytes = candidates[c]->bytes(trees[c]);
-                candidates[c]->close(trees[c]);
+                void *tree = build(candidates[c], scene, all ? processors : 1,
+                                   &results[c].build[all]);
+                results[c].bytes = candidates[c]->bytes(tree);
+                candidates[c]->close(tree);
             }
     for (int c = 0; c < CANDIDATES; c++)
         trees[c] = build(candidates[c], scene, processors, &results[c].build[1]);
+}
 
-    ray_list lists[KINDS];
-    const own_tree *first = trees[0];
-    make_rays(&first->scene, camera, above, lists);
-    float *expected = need(malloc(W * H * sizeof *expected));
+static void ask_in_turns(const ray_list *lists, int rounds, void **trees, result *results)
+{
+    float *expected = need(malloc(W * H * sizeof *expected)); /* rt.h's, it comes first */
     float *answers = need(malloc(W * H * sizeof *answers));
     for (int round = 0; round < rounds; round++)
         for (int kind = 0; kind < KINDS; kind++)
             for (int c = 0; c < CANDIDATES; c++) {
+                const candidate *one = candidates[c];
+                const ray_list *list = &lists[kind];
                 float *t = c == 0 ? expected : answers;
-                if (!trees[c])
-                    continue;
-                ask(candidates[c], trees[c], kind, &lists[kind], t,
-                    &results[c].took[kind]);
-                for (int i = 0; round == 0 && i < lists[kind].count; i++)
+                const double start = program_seconds();
+                (kind == SHADOW ? one->blocked : one->nearest)(trees[c], list->rays,
+                                                               list->count, t);
+                const double took = program_seconds() - start;
+                results[c].took[kind] = fmin(results[c].took[kind], took);
+                for (int i = 0; round == 0 && i < list->count; i++)
                     results[c].different += (t[i] < INFINITY) != (expected[i] < INFINITY);
             }
+    free(expected);
+    free(answers);
+}
 
+static void measure(const char *name, const rt_scene *scene, const rt_camera *camera,
+                    float above, int shapes, int rounds)
+{
+    result results[CANDIDATES];
+    void *trees[CANDIDATES];
+    ray_list lists[KINDS];
+    for (int c = 0; c < CANDIDATES; c++)
+        results[c] = (result){{1e30, 1e30}, {1e30, 1e30, 1e30}, 0, 0};
+    build_in_turns(scene, rounds, trees, results);
+    make_rays(&((own_tree *)trees[0])->scene, camera, above, lists);
+    ask_in_turns(lists, rounds, trees, results);
     for (int c = 0; c < CANDIDATES; c++) {
         const result *r = &results[c];
-        if (!trees[c])
-            continue;
         printf("%s\t%d\t%s", name, shapes, candidates[c]->name);
         for (int kind = 0; kind < KINDS; kind++)
             printf("\t%.4f", lists[kind].count / r->took[kind] / 1e6);
@@ -248,10 +252,8 @@ static void measure(const char *name, const rt_scene *scene, const rt_camera *ca
         fflush(stdout);
         candidates[c]->close(trees[c]);
     }
-    for (int k = 0; k < KINDS; k++)
-        free(lists[k].rays);
-    free(expected);
-    free(answers);
+    for (int kind = 0; kind < KINDS; kind++)
+        free(lists[kind].rays);
 }
 
 static const rt_light sun = {{2, 3, 1}, {1, 1, 1}};
@@ -287,7 +289,7 @@ int main(int argc, char **argv)
         const char *name = argc > 2 ? argv[i + 2] : all[i];
         const double spheres = atof(name);
         if (rounds < 1)
-            break;
+            return fprintf(stderr, "bench: no rounds\n"), 1;
         if (strcmp(name, "icosphere") == 0)
             measure_mesh(name, make_icosphere(8), rounds);
         else if (strcmp(name, "landscape") == 0)
@@ -299,5 +301,5 @@ int main(int argc, char **argv)
         else
             return fprintf(stderr, "bench: see the head of tests/bench/rays.c\n"), 1;
     }
-    return rounds < 1;
+    return 0;
 }

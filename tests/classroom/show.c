@@ -13,6 +13,8 @@
 #define STAGE STAGE_GLOSS
 #elif defined(rt_lens_ray)
 #define STAGE STAGE_SKY
+#elif defined(rt_hit_triangle)
+#define STAGE STAGE_TRIANGLES
 #else
 #define STAGE STAGE_INDIRECT
 #endif
