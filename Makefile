@@ -125,7 +125,7 @@ check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windo
 
 # ---------------------------------------------------------------------------- the rest
 
-bench: ## speed against the report's way and other renderers, below two minutes
+bench: ## speed against the report's way and other renderers, about two minutes
 	@CC='$(CC)' CXX='$(CXX)' CFLAGS='$(MACHINE) $(CFLAGS)' OPENMP='$(OPENMP)' BUILD='$(BUILD)' tests/bench/run
 
 bench-rays: ## single rays beside Embree and tinybvh: TINYBVH=where tiny_bvh.h is

@@ -2697,14 +2697,19 @@ static inline void rt__draw_in(const rt__corners *corners, rt_hit *hit)
     double longest = rt_ddot(ab, ab);
     longest = rt_ddot(ac, ac) > longest ? rt_ddot(ac, ac) : longest;
     longest = rt_ddot(bc, bc) > longest ? rt_ddot(bc, bc) : longest;
-    const double low = sqrt(rt_ddot(n, n) / longest); /* the least of its three heights */
-    const rt_vec3 step =
-        rt_sub(rt_leave(hit->point, hit->normal, hit->normal), hit->point);
-    double least = 4.0 * (double)rt_length(step) / low;
-    least = least < 0.1 ? least : 0.1;
     rt_dvec3 w =
         rt_dvec(1.0 - (double)hit->u - (double)hit->v, (double)hit->u, (double)hit->v);
-    if (w.x >= least && w.y >= least && w.z >= least)
+    const rt_vec3 step =
+        rt_sub(rt_leave(hit->point, hit->normal, hit->normal), hit->point);
+    const double steps = 16.0 * (double)rt_dot(step, step), nn = rt_ddot(n, n);
+    double smallest = w.x < w.y ? w.x : w.y;
+    smallest = smallest < w.z ? smallest : w.z;
+    if (smallest * smallest * nn >= steps * longest)
+        return;
+    /* the least of the three heights is |n| / the longest edge */
+    double least = sqrt(steps * longest / nn);
+    least = least < 0.1 ? least : 0.1;
+    if (smallest >= least)
         return;
     w = rt_dvec(w.x > least ? w.x : least, w.y > least ? w.y : least,
                 w.z > least ? w.z : least);
@@ -3854,8 +3859,20 @@ static inline rt__bounds rt__other_bounds(const rt_scene *scene, rt__other p)
     return b;
 }
 
-/* A box around a shape, and a little more: its coordinates are rounded, and a ray in the
- * very plane of a face must enter it (for rt__inverse makes 0 of 0/0). */
+/* A box, and a little more: its coordinates are rounded, and a ray in the very plane of a
+ * face must enter it (for rt__inverse makes 0 of 0/0). */
+static inline rt__bounds rt__with_margin(rt__bounds b)
+{
+    const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
+                                 rt__max(b.min, rt_scale(b.min, -1.0f)));
+    const rt_vec3 margin =
+        rt_add(rt_scale(size, 2.0f * FLT_EPSILON), rt_vec(1e-15f, 1e-15f, 1e-15f));
+    b.min = rt_sub(b.min, margin);
+    b.max = rt_add(b.max, margin);
+    return b;
+}
+
+/* A box around a shape. */
 static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
 {
     rt__bounds b;
@@ -3872,13 +3889,7 @@ static inline rt__bounds rt__shape_bounds(const rt_scene *scene, int number)
         b.min = rt_sub(s->center, r);
         b.max = rt_add(s->center, r);
     }
-    const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
-                                 rt__max(b.min, rt_scale(b.min, -1.0f)));
-    const rt_vec3 margin =
-        rt_add(rt_scale(size, 2.0f * FLT_EPSILON), rt_vec(1e-15f, 1e-15f, 1e-15f));
-    b.min = rt_sub(b.min, margin);
-    b.max = rt_add(b.max, margin);
-    return b;
+    return rt__with_margin(b);
 }
 
 /* A shape that is to be put into the tree. */
@@ -3953,13 +3964,10 @@ static inline int rt__bin_of(const rt__entry *entry, int axis, float low, float 
     return bin < RT__BINS ? bin : RT__BINS - 1;
 }
 
-#ifndef RT__PRICE
-#define RT__PRICE(n) (n)
-#endif
-/* What it costs to ask so many shapes. */
-static inline double rt__price(int count)
+/* How many leaves so many shapes make at least. */
+static inline double rt__leaves(int count)
 {
-    return (double)RT__PRICE(count);
+    return (double)((count + 7) / 8);
 }
 
 /* The first cut of the cheapest two, and in *one and *two what it makes. */
@@ -3975,8 +3983,8 @@ static inline int rt__cheapest_cut(const rt__bin *bins, rt__bin *one, rt__bin *t
     side = rt__no_bin();
     for (int k = 1; k < RT__BINS; k++) {
         rt__add_bin(&side, &bins[k - 1]);
-        const double cost = rt__area(&side.bounds) * rt__price(side.count) +
-                            rt__area(&after[k].bounds) * rt__price(after[k].count);
+        const double cost = rt__area(&side.bounds) * rt__leaves(side.count) +
+                            rt__area(&after[k].bounds) * rt__leaves(after[k].count);
         if (cost < best_cost) {
             best_cost = cost;
             best = k;
@@ -4228,7 +4236,7 @@ static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int
 static inline void rt__set_order(rt_bvh_node *node)
 {
     for (int octant = 0; octant < 8; octant++) {
-        float place[8];
+        float place[8] = {0.0f};
         uint32_t order = 0;
         for (int k = 0; k < node->count; k++) {
             const float x = node->min_x[k] + node->max_x[k];
@@ -5488,16 +5496,17 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
 
 #if RT__LANES > 1
 /* So many shapes are asked one by one, without the tree: about there it takes as long. */
-enum { RT__FEW = 40 * RT__LANES };
+enum { RT__FEW = 40 * RT__LANES, RT__FEW_OTHERS = 16 };
 
 typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
 } rt__column;
 
-/* The shapes of a scene, column by column; spheres first, then boxes. */
+/* The shapes of a scene, column by column, by their number in rt_hit; of meshes and custom
+ * shapes the boxes around them, see rt__near_others. */
 struct rt__table {
-    bool few; /* else there is nothing here, and rays ask the tree */
-    int spheres, count;
+    bool few;                      /* else there is nothing here, and rays ask the tree */
+    int spheres, count, all;       /* up to count are spheres and boxes */
     rt__column place, max, albedo; /* place is the center or min */
     float kind[RT__FEW];           /* see rt__hits */
     float radius[RT__FEW];         /* 0: a box */
@@ -5513,14 +5522,33 @@ struct rt__table {
 
 #define RT__DOUBT 1.953125e-3f /* 2^-9, see rt__place */
 
+/* A box around mesh or custom shape number i. */
+static rt__bounds rt__around(const rt_scene *scene, int i)
+{
+    rt__bounds b = rt__no_bounds();
+    if (i >= scene->mesh_count) {
+        rt__loosen(&scene->custom_shapes[i - scene->mesh_count], &b.min, &b.max);
+        return rt__with_margin(b);
+    }
+    const rt_mesh *mesh = &scene->meshes[i];
+    for (int k = 0; k < mesh->position_count; k++) {
+        b.min = rt__min(b.min, mesh->positions[k]);
+        b.max = rt__max(b.max, mesh->positions[k]);
+    }
+    if (mesh->position_count == 0)
+        b.min = b.max = rt_vec(0.0f, 0.0f, 0.0f);
+    return rt__with_margin(b);
+}
+
 /* Few shapes, of numbers so moderate that squares are good floats, and no sphere so small
  * that rt_leave's step is on the other side of it? */
 static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
                         const rt_lens *lens)
 {
     const float most = 1e7f;
-    bool good = rt__primitive_count(scene) <= RT__FEW && scene->mesh_count == 0 &&
-                scene->custom_shape_count == 0 &&
+    const int64_t others = (int64_t)scene->mesh_count + scene->custom_shape_count;
+    bool good = others <= RT__FEW_OTHERS &&
+                (int64_t)scene->sphere_count + scene->box_count + others <= RT__FEW &&
                 rt__within(camera->position, -most, most) && lens->radius <= most;
     for (int i = 0; good && i < scene->sphere_count; i++) {
         const rt_sphere *s = &scene->spheres[i];
@@ -5530,6 +5558,10 @@ static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
     for (int i = 0; good && i < scene->box_count; i++)
         good = rt__within(scene->boxes[i].min, -most, most) &&
                rt__within(scene->boxes[i].max, -most, most);
+    for (int i = 0; good && i < (int)others; i++) {
+        const rt__bounds b = rt__around(scene, i);
+        good = rt__within(b.min, -most, most) && rt__within(b.max, -most, most);
+    }
     for (int i = 0; good && i < scene->light_count; i++)
         good = rt__within(scene->lights[i].position, -most, most);
     for (int i = 0; good && i < scene->lamp_count; i++) {
@@ -5568,11 +5600,9 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
     s->least_light = 1e30f;
     s->spheres = scene->sphere_count;
     s->count = s->spheres + scene->box_count;
-    for (int i = 0; i < s->count; i++) {
-        const rt_sphere *sphere = i < s->spheres ? &scene->spheres[i] : NULL;
-        const rt_box *box = sphere ? NULL : &scene->boxes[i - s->spheres];
-        const rt_material *material = sphere ? &sphere->material : &box->material;
-        rt__put(&s->place, i, sphere ? sphere->center : box->min);
+    s->all = rt__shape_count(scene);
+    for (int i = 0; i < s->all; i++) {
+        const rt_material *material = rt__material_of(scene, i);
         rt__put(&s->albedo, i, material->albedo);
         s->kind[i] = material->mirror ? 1.0f : 0.0f;
         if (scene->surfaces) {
@@ -5582,10 +5612,20 @@ static void rt__set_table(rt__table *s, const rt_scene *scene)
             rt__put(&s->absorption, i, surface->absorption);
             rt__put(&s->emission, i, surface->emission);
         }
-        if (box) {
-            rt__put(&s->max, i, box->max);
+        if (i >= s->spheres) {
+            rt__bounds b;
+            if (i < s->count) {
+                b.min = scene->boxes[i - s->spheres].min;
+                b.max = scene->boxes[i - s->spheres].max;
+            } else {
+                b = rt__around(scene, i - s->count);
+            }
+            rt__put(&s->place, i, b.min);
+            rt__put(&s->max, i, b.max);
             continue;
         }
+        const rt_sphere *sphere = &scene->spheres[i];
+        rt__put(&s->place, i, sphere->center);
         const rt_dvec3 o = rt_to_double(sphere->center);
         const double oo = rt_ddot(o, o), r = (double)sphere->radius;
         s->radius[i] = sphere->radius;
@@ -6204,6 +6244,24 @@ RT__NOINLINE rt__m rt__finish_boxes(const rt__table *s, const rt__f3 *origin,
 static void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
                              const rt__f3 *direction, unsigned lanes, rt__hits *hits);
 
+/* Meshes and custom shapes are asked by one ray after the other, in the tree. Which rays
+ * may meet one before t_max? Those that enter the box around it, or are parallel to a
+ * face. */
+RT__NOINLINE rt__m rt__near_others(const rt__table *s, const rt__f3 *origin,
+                                   const rt__f3 *direction, const rt__f *t_max)
+{
+    const rt__slab_rays r = rt__for_boxes(*origin, *direction);
+    const rt__f zero = rt__all(0.0f);
+    rt__m near_any = r.parallel;
+    for (int i = s->count; i < s->all; i++) {
+        rt__f t_in, t_out, doubt;
+        rt__slab(s, i, &r, &t_in, &t_out, &doubt);
+        near_any |= rt__no(rt__less(t_out + doubt, rt__fmax(t_in, zero)) |
+                           rt__less(*t_max + doubt, t_in));
+    }
+    return near_any;
+}
+
 /* rt_intersect of a scene with few shapes. */
 RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m lanes,
                          rt__hits *hits)
@@ -6235,11 +6293,14 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
                        rt__less(t * t * a, r * r * 8e9f) &
                        rt__less(rt__all(4e-6f), rt__abs(toward));
     rt__m ask = lanes & rt__no(missed | good);
-    if (!rt__any(ask))
-        return;
     const rt__m boxes = ask & rt__no(sphere);
     if (rt__any(boxes))
         ask &= rt__no(rt__finish_boxes(s, &p->origin, &u, boxes, &n.at, &limit, hits));
+    if (s->count < s->all) {
+        const rt__f t_max = rt__select(missed, rt__all(FLT_MAX), hits->t);
+        hits->inside = n.at & 0;
+        ask |= lanes & rt__near_others(s, &p->origin, &u, &t_max);
+    }
     if (rt__any(ask))
         rt__find_in_tree(job->scene, &p->origin, &u, rt__bits(ask), hits);
 }
@@ -6306,7 +6367,7 @@ typedef struct rt__probe {
 /* Not all rays are fit: the squares of short and long directions are no good floats. And
  * the sums and products of those that are must not overflow, unless they are almost
  * parallel to an axis. */
-RT__INLINE bool rt__set_probe(rt__probe *p, const rt_ray *ray)
+RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray *ray)
 {
     const rt_vec3 o = ray->origin, u = ray->direction;
     if (!rt__within(o, -1e16f, 1e16f) || !rt__within(u, -1e10f, 1e10f) ||
@@ -6323,8 +6384,12 @@ RT__INLINE bool rt__set_probe(rt__probe *p, const rt_ray *ray)
     p->out_x = 24 - p->in_x;
     p->out_y = 40 - p->in_y;
     p->out_z = 56 - p->in_z;
-    p->over_a = 1.0f / rt_dot(u, u);
-    p->over_root = sqrtf(p->over_a);
+    if (scene->sphere_count > 0) {
+        p->over_a = 1.0f / rt_dot(u, u);
+        p->over_root = sqrtf(p->over_a);
+    }
+    if (scene->mesh_count == 0)
+        return true;
     p->shear = rt__shear_of(ray);
     const int axis = p->shear.axis;
     rt__put_vec(p->origin, rt_to_float(rt__turned(o, axis)));
@@ -6436,7 +6501,8 @@ RT__INLINE unsigned rt__near_triangles(const rt_bvh_row *row, const rt__probe *p
 /* The nearest shape so far, and in which column of which leaf. */
 typedef struct rt__found {
     rt__best best;
-    double t; /* before it was rounded */
+    double t;         /* before it was rounded */
+    rt_dvec3 weights; /* of a triangle */
     int leaf, column;
 } rt__found;
 
@@ -6474,7 +6540,8 @@ RT__INLINE rt__corners rt__column_corners(const rt_bvh_row *row, int column)
 
 /* rt__meet_shape, of what the leaf has of it. */
 RT__INLINE double rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, int kind,
-                                  int column, const rt__probe *p, float t_max)
+                                  int column, const rt__probe *p, float t_max,
+                                  rt_dvec3 *weights)
 {
     if (kind == RT__SPHERES) {
         const rt_sphere sphere = rt__column_sphere(row, column);
@@ -6482,8 +6549,7 @@ RT__INLINE double rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, 
     }
     if (kind == RT__TRIANGLES) {
         const rt__corners corners = rt__column_corners(row, column);
-        rt_dvec3 weights;
-        return rt__meet_corners(&p->shear, &corners, t_max, &weights);
+        return rt__meet_corners(&p->shear, &corners, t_max, weights);
     }
     const int number = row->number[column];
     if (number >= scene->sphere_count + scene->box_count)
@@ -6510,9 +6576,7 @@ RT__INLINE bool rt__hit_column(const rt_scene *scene, const rt__found *found,
     if (kind == RT__TRIANGLES) {
         const rt__corners corners = rt__column_corners(row, found->column);
         const rt__other other = rt__other_of(scene, number);
-        rt_dvec3 weights;
-        const double t = rt__meet_corners(&p->shear, &corners, FLT_MAX, &weights);
-        rt__hit_corners(&corners, &p->ray, t, weights, hit);
+        rt__hit_corners(&corners, &p->ray, found->t, found->weights, hit);
         hit->material = &scene->meshes[other.mesh].material;
         hit->shape = scene->sphere_count + scene->box_count + other.mesh;
         hit->part = other.part;
@@ -6547,11 +6611,14 @@ RT__INLINE bool rt__ask_rows(const rt_scene *scene, int leaf, const rt__probe *p
     for (; maybe != 0; maybe &= maybe - 1u) {
         const int k = rt__lowest(maybe), number = row->number[k];
         const float limit = any ? t_max : rt__beyond(found->best.t);
-        const double t = rt__meet_column(scene, row, kind, k, p, limit);
+        rt_dvec3 weights;
+        const double t = rt__meet_column(scene, row, kind, k, p, limit, &weights);
         if (any && t > 0.0)
             return true;
         if (rt__is_better(&found->best, number, (float)t)) {
             found->t = t;
+            if (kind == RT__TRIANGLES)
+                found->weights = weights;
             found->leaf = leaf;
             found->column = k;
             found->best.number = number;
@@ -6698,6 +6765,7 @@ RT__NOINLINE bool rt__nearest_of(const rt_scene *scene, const rt__probe *p, floa
 {
     rt__found found;
     found.best.number = -1;
+    found.weights = rt_dvec(0.0, 0.0, 0.0);
     found.best.t = t_max;
     return rt__search_rows(scene, p, false, &found) &&
            rt__hit_column(scene, &found, p, hit);
@@ -6716,15 +6784,15 @@ RT__NOINLINE bool rt__nearest_in_tree(const rt_scene *scene, const rt_ray *ray,
                                       rt_hit *hit)
 {
     rt__probe p;
-    return rt__set_probe(&p, ray) ? rt__nearest_of(scene, &p, FLT_MAX, hit)
-                                  : rt__intersect_bvh(scene, ray, hit);
+    return rt__set_probe(&p, scene, ray) ? rt__nearest_of(scene, &p, FLT_MAX, hit)
+                                         : rt__intersect_bvh(scene, ray, hit);
 }
 
 RT__NOINLINE bool rt__any_in_tree(const rt_scene *scene, const rt_ray *ray)
 {
     rt__probe p;
-    return rt__set_probe(&p, ray) ? rt__any_of(scene, &p, 1.0f)
-                                  : rt__occluded_bvh(scene, ray, 1.0f);
+    return rt__set_probe(&p, scene, ray) ? rt__any_of(scene, &p, 1.0f)
+                                         : rt__occluded_bvh(scene, ray, 1.0f);
 }
 
 /* For who asks for one ray. Only rays that are almost parallel to an axis raise
@@ -6734,7 +6802,7 @@ static bool rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_m
                              rt_hit *hit)
 {
     rt__probe p;
-    if (!rt__set_probe(&p, ray)) {
+    if (!rt__set_probe(&p, scene, ray)) {
         const int number = rt__search(scene, ray, t_max, !hit);
         return number >= 0 && (!hit || rt__hit_shape(scene, number, ray, 0.0, hit));
     }
@@ -6897,6 +6965,9 @@ RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
         shade = rt__shade_all(job->table, p, u);
         shade.sure &= rt__no(behind);
         shade.may |= behind;
+        const rt__f end = rt__all(1.0f);
+        if (job->table->count < job->table->all)
+            shade.may |= rt__near_others(job->table, &p->origin, &u, &end);
     }
     const rt__m ask = lit & shade.may & rt__no(shade.sure);
     if (rt__any(ask))
@@ -7227,7 +7298,7 @@ RT__INLINE rt__f rt__of_surface(const rt__job *job, const float *column, size_t 
                                 rt__i shape, rt__m lanes)
 {
     return job->table->few
-               ? rt__pick(column, shape, job->table->count)
+               ? rt__pick(column, shape, job->table->all)
                : rt__gather(job->scene->surfaces, offset, shape, rt__bits(lanes));
 }
 
@@ -7291,7 +7362,7 @@ RT__NOINLINE rt__m rt__inside(const rt__job *job, const rt__hits *hits, rt__m la
     const rt__table *s = job->table;
     const rt__f zero = rt__all(0.0f);
     rt__f inside = zero;
-    if (s->few) {
+    if (s->few && s->count == s->all) {
         const rt__f3 place = rt__vpick(&s->place, hits->shape, s->count);
         const rt__f3 max = rt__vpick(&s->max, hits->shape, s->count);
         const rt__m sphere = rt__less(zero, rt__pick(s->radius, hits->shape, s->count));
@@ -8076,7 +8147,7 @@ static rt_status rt__run_packets(rt__job *job)
     job->table = &table;
     job->step = rt__is_part_two(scene) ? rt__step_packets_mis : rt__step_packets;
     job->together = RT__LANES * RT__FLIGHT;
-    job->ticks = table.few ? 64 : 1;
+    job->ticks = table.few && table.count == table.all ? 64 : 1;
     return rt__run(job);
 }
 

@@ -12,11 +12,13 @@
 #define SCENE_H
 
 #include "../rt.h"
+#ifndef __cplusplus
 #include "patterns.h"
 #include "shapes.h"
 #include "teapot.h"
 
 #include <stdlib.h>
+#endif
 
 /* In the window things can be moved; live.h has no const here. */
 #ifndef MOVABLE
@@ -68,6 +70,8 @@ static const rt_scene scene_indirect = {.spheres = room_spheres,
                                         .box_count = 1,
                                         .lights = &room_dim_light,
                                         .light_count = 1};
+
+#ifndef __cplusplus /* which knows no [ROOM_BALL] = below, and needs no part two */
 
 /* Part two. Surfaces have the numbers of the shapes: the spheres above, then the cube; or in its
  * place the mesh, and then the pedestal. */
@@ -302,4 +306,5 @@ static inline void room_prepare(int which)
     rt_build_bvh(scenes[which], &room_trees[which]);
 }
 
+#endif /* __cplusplus */
 #endif

@@ -20,7 +20,7 @@ static const char *const window_help[] = {
     "  wheel     on the lamp its size, on gloss its sharpness, on glass its index",
     "arrows      go round (left, right: the sample, while a ray is shown)",
     "1 ... 7     the same view in chapter 1 ... 7;  8 glass, 9 lamps, 0 gloss;",
-    ",  .         one picture back, one on: also to those after 0, up to your own shape",
+    ",  .         one picture back, one on: also to those that have no key",
     "b (hold)    the other picture; o: which one that is",
     "click       show the ray of this pixel; i: and no more",
     "v           the plan from above, or from the side",

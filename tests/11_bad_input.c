@@ -1,4 +1,4 @@
-/* A hundred bad or odd inputs, each with what is documented to happen. The numbers are those of
+/* More than a hundred bad or odd inputs, each with what is documented to happen. The numbers are those of
  * the table in docs/correctness.md. */
 #define _XOPEN_SOURCE 700 /* mkdtemp, popen, realpath, symlink, nftw */
 #include "../demos/scene.h"
@@ -815,7 +815,7 @@ static void small_stacks(void)
  * without, which is the same picture, of moderate numbers. */
 static rt_sphere two_ball;
 static rt_box two_cube;
-static rt_surface two_surfaces[2];
+static rt_surface two_surfaces[4];
 static rt_lamp two_lamps[2];
 static rt_lens two_lens;
 static rt_camera two_camera;
@@ -1198,6 +1198,223 @@ static void part_two_of_nothing(void)
     assert_vec(picture[5], 0, 0, 0, 0);
 }
 
+/* ---- 101 to 110: meshes and shapes of one's own (each number: 25_triangles, 26_own_shapes) - */
+
+static rt_vec3 corners[4];
+static int faces[12];
+static rt_mesh two_mesh;
+static rt_custom_shape two_shape;
+static float two_data;
+
+static bool own_disc(const void *data, const rt_ray *ray, float t_max, rt_hit *hit_)
+{
+    const float t = (-3 - ray->origin.z) / ray->direction.z;
+    (void)data;
+    hit_->t = t;
+    hit_->point = rt_at(ray, t);
+    hit_->normal = rt_vec(0, 0, 1);
+    return t > 0 && t < t_max && rt_length(rt_sub(hit_->point, rt_vec(0, 0, -3))) < 1;
+}
+
+/* That of part two, with a tetrahedron around its ball and a disc before it. */
+static void with_mesh(void)
+{
+    const rt_vec3 at[4] = {{3, 3, -2}, {3, -3, -8}, {-3, 3, -8}, {-3, -3, -2}};
+    const int tetrahedron[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
+    part_two();
+    memcpy(corners, at, sizeof corners);
+    memcpy(faces, tetrahedron, sizeof faces);
+    const rt_mesh mesh = {corners, faces, 4, 4, {{0.5f, 0.6f, 0.7f}, false}};
+    const rt_custom_shape shape = {
+        {-1, -1, -3}, {1, 1, -3}, {{1, 1, 1}, false}, own_disc, &two_data};
+    two_mesh = mesh;
+    two_shape = shape;
+    two.meshes = &two_mesh;
+    two.mesh_count = 1;
+    two.custom_shapes = &two_shape;
+    two.custom_shape_count = 1;
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static void index_out_of_range(void)
+{
+    const int bad[] = {-1, 4, INT_MAX, INT_MIN};
+    with_mesh();
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        faces[11] = bad[i];
+        assert_int_equal(rt_check_scene(&two, NULL), RT_BAD_MESH);
+        assert_int_equal(render_two(), RT_BAD_MESH);
+    }
+}
+
+static void bad_positions(void)
+{
+    const float bad[] = {nan_, inf, -inf, 1e30f, -1.001e15f};
+    with_mesh();
+    refused(&corners[3].z, bad, COUNT(bad), RT_BAD_MESH, 0);
+}
+
+static void no_arrays_of_a_mesh(void)
+{
+    with_mesh();
+    two_mesh.positions = NULL;
+    assert_int_equal(render_two(), RT_BAD_MESH);
+    with_mesh();
+    two_mesh.indices = NULL;
+    assert_int_equal(render_two(), RT_BAD_MESH);
+    with_mesh();
+    two_mesh.triangle_count = -1;
+    assert_int_equal(render_two(), RT_BAD_MESH);
+    with_mesh();
+    two_mesh.position_count = -1;
+    assert_int_equal(render_two(), RT_BAD_MESH);
+    with_mesh();
+    two.mesh_count = -1;
+    assert_int_equal(render_two(), RT_BAD_POINTER);
+    two.mesh_count = 1;
+    two.meshes = NULL;
+    assert_int_equal(render_two(), RT_BAD_POINTER);
+    with_mesh();
+    two.custom_shapes = NULL;
+    assert_int_equal(render_two(), RT_BAD_POINTER);
+}
+
+static void mesh_of_nothing(void)
+{
+    rt_vec3 without[COUNT(picture)];
+    with_mesh();
+    two.mesh_count = 0;
+    two.surfaces = NULL; /* of which the disc has another */
+    assert_int_equal(render_two(), RT_OK);
+    memcpy(without, picture, sizeof without);
+    two.mesh_count = 1;
+    two_mesh.triangle_count = 0;
+    assert_int_equal(render_two(), RT_OK);
+    assert_memory_equal(picture, without, sizeof without);
+    two_mesh.triangle_count = 4; /* all of them one point, or a line */
+    for (int i = 0; i < 12; i++)
+        faces[i] = i % 3 == 2;
+    assert_int_equal(render_two(), RT_OK);
+    assert_memory_equal(picture, without, sizeof without);
+}
+
+static void mesh_of_1e15(void)
+{
+    const float sizes[] = {1e14f, 3e14f, 1e9f, 1e-20f, 1e-38f};
+    for (size_t i = 0; i < COUNT(sizes); i++) {
+        with_mesh();
+        for (int k = 0; k < 4; k++)
+            corners[k] = rt_scale(corners[k], sizes[i] / 3);
+        assert_int_equal(render_two(), RT_OK);
+        two_surfaces[2].eta = 1.5f;
+        assert_int_equal(render_two(), RT_OK);
+    }
+}
+
+static void one_triangle_a_hundred_times(void)
+{
+    static int copies[300];
+    with_mesh();
+    for (int i = 0; i < 300; i++)
+        copies[i] = faces[i % 3];
+    two_mesh.indices = copies;
+    two_mesh.triangle_count = 100;
+    assert_int_equal(render_two(), RT_OK);
+    two_surfaces[2].eta = 1.5f;
+    assert_int_equal(render_two(), RT_OK);
+    const rt_ray ray = ray_of(rt_vec(5, 0, -6.5f), rt_vec(-1, 0, 0));
+    two.sphere_count = two.box_count = 0;
+    hit = untouched;
+    assert_true(rt_intersect(&two, &ray, &hit));
+    assert_int_equal(hit.part, 0);
+}
+
+static void open_mesh_of_glass(void)
+{
+    with_mesh(); /* which has two sides only, and the camera may be in it */
+    two_mesh.triangle_count = 2;
+    two_surfaces[2].eta = 1.5f;
+    two_surfaces[2].absorption = rt_vec(0, 1, 1e15f);
+    assert_int_equal(render_two(), RT_OK);
+    two_camera.position = rt_vec(0, 0, -5);
+    assert_int_equal(render_two(), RT_OK);
+    two_mesh.triangle_count = 4;
+    assert_int_equal(render_two(), RT_OK);
+    two_camera.position = corners[0];
+    assert_int_equal(render_two(), RT_OK);
+}
+
+static void bad_custom_shape(void)
+{
+    const float bad[] = {nan_, inf, -inf, 1.001e15f}, inverted[] = {1.001f, 1e9f};
+    with_mesh();
+    refused(&two_shape.min.x, bad, COUNT(bad), RT_BAD_CUSTOM_SHAPE, 0);
+    refused(&two_shape.max.z, bad, COUNT(bad), RT_BAD_CUSTOM_SHAPE, 0);
+    refused(&two_shape.min.y, inverted, COUNT(inverted), RT_BAD_CUSTOM_SHAPE, 0);
+    two_shape.hit = NULL;
+    assert_int_equal(render_two(), RT_BAD_CUSTOM_SHAPE);
+}
+
+static rt_hit lie;
+
+static bool lying(const void *data, const rt_ray *ray, float t_max, rt_hit *hit_)
+{
+    (void)data, (void)ray, (void)t_max;
+    *hit_ = lie;
+    return true;
+}
+
+static void answers_that_make_no_sense(void)
+{
+    rt_vec3 without[COUNT(picture)];
+    with_mesh();
+    two.custom_shape_count = 0;
+    assert_int_equal(render_two(), RT_OK);
+    memcpy(without, picture, sizeof without);
+    two.custom_shape_count = 1;
+    two_shape.hit = lying;
+    for (int i = 0; i < 9; i++) {
+        const rt_hit good = {.t = 1, .point = {0, 0, -3}, .normal = {0, 0, 1}};
+        const float t[] = {nan_, inf, 0, -1, 1e-45f};
+        lie = good;
+        if (i < 5)
+            lie.t = t[i];
+        else if (i < 7)
+            lie.normal.z = i == 5 ? 0 : nan_;
+        else
+            lie.point.x = i == 7 ? nan_ : 1.01f;
+        assert_int_equal(render_two(), RT_OK);
+        assert_memory_equal(picture, without, sizeof without);
+    }
+}
+
+static bool always_yes(const void *data, const rt_ray *ray, float t_max, rt_hit *hit_)
+{
+    (void)data, (void)t_max;
+    hit_->t = 2e-38f;
+    hit_->point = rt_vec(0, 0, -3);
+    hit_->normal = rt_scale(ray->direction, -1);
+    return true;
+}
+
+static void always_a_hit(void)
+{
+    with_mesh();
+    two_shape.hit = always_yes;
+    for (int i = 0; i < 4; i++) {
+        two_shape.material.mirror = i == 1;
+        two_surfaces[3].eta = i == 2 ? 1.5f : 0;
+        two_surfaces[3].shininess = i == 3 ? 9 : 0;
+        for (int lanes = 0; lanes < 2; lanes++) {
+            /* with a tree it is asked by rays that meet its box, without by all: two pictures */
+            const rt_options options = {.samples = 16, .bounces = 6, .lanes = lanes};
+            assert_int_equal(render(&two, &two_camera, options), RT_OK);
+            for (size_t k = 0; k < COUNT(picture); k++)
+                assert_true(picture[k].x >= 0 && picture[k].x <= FLT_MAX);
+        }
+    }
+}
+
 /* ---- the table ---------------------------------------------------------------------- */
 
 static const struct row {
@@ -1304,6 +1521,16 @@ static const struct row {
     {"98 lens of 1e15, and of 1e-45: finite", lens_far_off},
     {"99 surfaces at their limits: finite", surfaces_at_their_limits},
     {"100 surfaces, lamps or sky of no shapes: a picture", part_two_of_nothing},
+    {"101 index of a mesh out of range: refused", index_out_of_range},
+    {"102 positions NaN, infinite, 1e30: refused", bad_positions},
+    {"103 mesh without arrays, counts negative: refused", no_arrays_of_a_mesh},
+    {"104 mesh of no triangle, a point, a line: nothing", mesh_of_nothing},
+    {"105 mesh of 1e15, and of 1e-38: finite", mesh_of_1e15},
+    {"106 a triangle a hundred times: the first", one_triangle_a_hundred_times},
+    {"107 open mesh of glass, camera in it: finite", open_mesh_of_glass},
+    {"108 own shape: bad box, no function: refused", bad_custom_shape},
+    {"109 own shape: t NaN, 0, no normal, P far: miss", answers_that_make_no_sense},
+    {"110 own shape that is always hit: ends", always_a_hit},
 };
 
 static void check_row(void **state)

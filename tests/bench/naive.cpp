@@ -253,8 +253,8 @@ int main(int argc, char **argv)
     int samples = argc > 3 ? atoi(argv[3]) : 4;
 
     Scene scene;
-    for (const rt_sphere &sphere : room_spheres)
-        scene.objects.push_back(new Sphere(sphere));
+    for (int i = 0; i < scene_indirect.sphere_count; i++)
+        scene.objects.push_back(new Sphere(room_spheres[i]));
     scene.objects.push_back(new Cube(room_cube));
     scene.light = Vector(room_dim_light.position);
     scene.intensity = Vector(room_dim_light.intensity);
