@@ -1566,32 +1566,27 @@ static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
 static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
                                       float t_max);
 
-/* The search of the last section finds the same sooner, but calls no routine of yours. */
-#ifdef RT__OWN
-#define RT__FASTER(scene) NULL
-#else
-#define RT__FASTER(scene) (scene)->bvh->search
-#endif
-
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit)
 {
-    rt__search_function *faster = RT__FASTER(scene);
     if (scene->bvh->path)
         return rt__intersect_noted(scene, ray, hit);
-    if (faster)
-        return faster(scene, ray, FLT_MAX, hit);
+#ifndef RT__OWN /* the other search finds the same sooner, but calls no routine of yours */
+    if (scene->bvh->search)
+        return scene->bvh->search(scene, ray, FLT_MAX, hit);
+#endif
     const int number = rt__search(scene, ray, FLT_MAX, false);
     return number >= 0 && rt__hit_shape(scene, number, ray, 0.0, hit);
 }
 
 static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, float t_max)
 {
-    rt__search_function *faster = RT__FASTER(scene);
     if (scene->bvh->path)
         return rt__occluded_noted(scene, ray, t_max);
-    if (faster)
-        return faster(scene, ray, t_max, NULL);
+#ifndef RT__OWN
+    if (scene->bvh->search)
+        return scene->bvh->search(scene, ray, t_max, NULL);
+#endif
     return rt__search(scene, ray, t_max, true) >= 0;
 }
 
@@ -4110,12 +4105,6 @@ typedef struct rt__builder {
     rt_bvh *bvh;
 } rt__builder;
 
-/* Does a group deserve a task? */
-static inline bool rt__is_large(const rt__group *group)
-{
-    return group->count > RT__TASK;
-}
-
 /* The kind of the shape with this number, see rt_bvh_row, ... */
 static inline int rt__kind_of(const rt_scene *scene, int number)
 {
@@ -4145,14 +4134,10 @@ static inline void rt__build_branch(const rt__builder *b, int at, int depth)
             continue;
         memset(b->branches[slice].groups, 0, sizeof b->branches[slice].groups);
         b->branches[slice].groups[0] = *group;
-        if (rt__is_large(group)) {
 #ifdef RT__TASKS
-#pragma omp task
+#pragma omp task if (group->count > RT__TASK)
 #endif
-            rt__build_branch(b, slice, depth + 1);
-        } else {
-            rt__build_branch(b, slice, depth + 1);
-        }
+        rt__build_branch(b, slice, depth + 1);
         slice += rt__most_nodes(group->count);
     }
 #ifdef RT__TASKS
@@ -4251,7 +4236,7 @@ static inline void rt__set_order(rt_bvh_node *node)
         for (int k = 0; k < 8; k++) { /* how many come after it? */
             int after = k < node->count ? 0 : k;
             for (int i = 0; k < node->count && i < node->count; i++)
-                after += place[i] > place[k] || (place[i] == place[k] && i < k);
+                after += place[i] > place[k] || (i < k && place[i] == place[k]);
             order |= (uint32_t)k << 3 * after;
         }
         for (int i = 0; i < 3; i++)
@@ -4282,14 +4267,10 @@ static inline void rt__set_node(const rt__builder *b, int at, int number, int ro
             continue;
         }
         node->inside[k] = -number;
-        if (rt__is_large(group)) {
 #ifdef RT__TASKS
-#pragma omp task
+#pragma omp task if (group->count > RT__TASK)
 #endif
-            rt__set_node(b, slice, number, row);
-        } else {
-            rt__set_node(b, slice, number, row);
-        }
+        rt__set_node(b, slice, number, row);
         number += b->branches[slice].nodes;
         row += (int)b->branches[slice].rows;
         slice += rt__most_nodes(group->count);
