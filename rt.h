@@ -89,7 +89,7 @@
  *
  * THREADS         Every function may run at the same time on several threads, as long as
  *                 nobody writes what another reads. rt_render starts threads by itself,
- *                 and they meet only when it ends; rt_build_bvh does from 4096 shapes on,
+ *                 and they meet only when it ends; rt_build_bvh does from 65536 shapes on,
  *                 as many as OpenMP offers. After that, in a child that fork()
  *                 makes, GNU's OpenMP hangs as soon as it needs more than one thread:
  *                 give options.threads = 1 there, or fork before the first picture.
@@ -4084,8 +4084,8 @@ static inline void rt__split_in_eight(rt__entry *entries, bool in_halves,
  * 2^28, 2^25 ... 2. Eight or less are a leaf, so there are less than 21 + 11 levels. */
 enum { RT__HALVES = RT__LEVELS - 11 };
 
-/* So many shapes are worth a task for another thread. */
-enum { RT__TASK = 4096 };
+/* Trees of more shapes than that are built by several threads, and so many are a task. */
+enum { RT__SHARED = 65536, RT__TASK = 4096 };
 
 /* A group of n > 8 shapes makes at most (n - 2) / 7 nodes: itself and those below. If its
  * node has only leaves, n >= 9. Else it has eight groups, m of them of more than eight
@@ -4338,7 +4338,7 @@ static inline bool rt__build(const rt__builder *b, int count, int threads)
     rt__set_groups(b, count);
     (void)threads;
 #ifdef RT__TASKS
-#pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
+#pragma omp parallel num_threads(threads) if (count > RT__SHARED && threads > 1)
 #pragma omp single
 #endif
     rt__build_branch(b, 0, 0);
@@ -4346,7 +4346,7 @@ static inline bool rt__build(const rt__builder *b, int count, int threads)
     if (all->rows > INT_MAX / 4 || !rt__make_room(b->bvh, all->nodes, (int)all->rows))
         return false;
 #ifdef RT__TASKS
-#pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
+#pragma omp parallel num_threads(threads) if (count > RT__SHARED && threads > 1)
 #pragma omp single
 #endif
     rt__set_node(b, 0, 0, 0);
@@ -5479,8 +5479,10 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
 /* ---- what packets of rays want to know of a scene -------------------------------- */
 
 #if RT__LANES > 1
-/* So many shapes are asked one by one, without the tree: about there it takes as long. */
-enum { RT__FEW = 40 * RT__LANES, RT__FEW_OTHERS = 16 };
+/* So many shapes are asked one by one, without the tree: about there it takes as long. Of
+ * meshes and custom shapes, which are in the tree all the same, there may be some beside
+ * them. */
+enum { RT__FEW = RT__LANES == 16 ? 480 : 50 * RT__LANES, RT__FEW_OTHERS = 16 };
 
 typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
