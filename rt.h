@@ -89,10 +89,11 @@
  *
  * THREADS         Every function may run at the same time on several threads, as long as
  *                 nobody writes what another reads. rt_render starts threads by itself,
- *                 and they meet only when it ends; rt_build_bvh does from 65536 shapes on,
- *                 as many as OpenMP offers. After that, in a child that fork()
- *                 makes, GNU's OpenMP hangs as soon as it needs more than one thread:
- *                 give options.threads = 1 there, or fork before the first picture.
+ *                 and they meet only when it ends; rt_build_bvh does so for more than
+ *                 65536 shapes, as many as OpenMP offers. After that, in a child that
+ *                 fork() makes, GNU's OpenMP hangs as soon as it needs more than one
+ *                 thread: give options.threads = 1 there, or fork before the first
+ *                 picture.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
  *                 of threads or lanes, nor on how samples are split over calls (but see
  *                 rt_render on more than 4096 in one call). Pass -ffp-contract=off for
@@ -1571,7 +1572,7 @@ static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
 {
     if (scene->bvh->path)
         return rt__intersect_noted(scene, ray, hit);
-#ifndef RT__OWN /* the other search finds the same sooner, but calls no routine of yours */
+#ifndef RT__OWN /* finds the same sooner, but calls no routine of yours */
     if (scene->bvh->search)
         return scene->bvh->search(scene, ray, FLT_MAX, hit);
 #endif
