@@ -905,7 +905,6 @@ static double sent(const rt_scene *scene, int from, int to, int count, double *a
         const float v = root * rt_random(&rng);
         const rt__corners corners = rt__corners_of(mesh, t);
         rt_hit hit = untouched;
-        const rt__corners corners = rt__corners_of(mesh, t);
         hit.point =
             rt__blend(&corners, rt_dvec(1 - (double)root, (double)(root - v), (double)v));
         hit.normal = rt_to_float(rt_dnormalize(rt__across(&corners)));
