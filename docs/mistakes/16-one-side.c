@@ -1,9 +1,8 @@
 /* Only from one side
  *
- * Symptom: the teapot is dark and speckled: one looks through its front, and sees the inside of its
- *          back. (With the other sign there is hardly anything to see, but a glass teapot is gone.)
- * Cause:   only one sign of the three areas counts as a hit, so a triangle is there from one side
- *          only; here it is the back
+ * Symptom: one looks through the front of the teapot, and sees the inside of its back, with grain
+ * Cause:   only one sign of the three areas counts as a hit. So a triangle is there from one side
+ *          only, and which one, depends on whether the ray goes up or down its longest axis
  * Cure:    all three at least 0, or all three at most 0
  * Options:
  */
@@ -35,8 +34,8 @@ static inline bool my_hit_triangle(const rt_mesh *mesh, int triangle, const rt_r
     t = t * sz / sum;
     const rt_dvec3 n = rt_dnormalize(
         rt_dcross(rt_dsub(corner[1], corner[0]), rt_dsub(corner[2], corner[0])));
-    const bool right = w[0] <= 0 && w[1] <= 0 && w[2] <= 0;
-    if (!(right && t >= FLT_MIN && (float)t < t_max && rt_ddot(n, n) > 0))
+    const bool left = w[0] >= 0 && w[1] >= 0 && w[2] >= 0;
+    if (!(left && t >= FLT_MIN && (float)t < t_max && rt_ddot(n, n) > 0))
         return false;
     for (int c = 0; c < 3; c++)
         w[c] *= 1 / sum;
