@@ -82,7 +82,7 @@ done
     for file in $(ls docs/mistakes/*.c | sort -s -t/ -k3,3n); do
         name=$(basename "$file" .c) n=${name%%-*}
         [ "$n" = "$last" ] || printf '\n## %s\n' \
-            "$(sed -n '1s/^# //p' "$(ls docs/*"$n"-*.md)" | sed "s/^\([0-9]*\)\. /Chapter \1: /")"
+            "$(sed -n '1s/^# //p' "$(ls docs/"$(printf %02d "$n")"-*.md)" | sed "s/^\([0-9]*\)\. /Chapter \1: /")"
         last=$n
         cat "$work/$name.md"
     done

@@ -3,7 +3,7 @@
 #   docs/renew.sh FILE.md...          rewrite the files that are stale
 #   docs/renew.sh --check FILE.md...  write nothing: name the stale files, and exit 1
 # To be run at the top of the repository, after docs/numbers.sh.
-#   <!-- snip: PATH#NAME -->   the definition of NAME in PATH: a function, a struct, an enum,
+#   <!-- snip: PATH#NAME -->   the definition of NAME in PATH: a function or its type, a struct, an enum,
 #   <!-- /snip -->             or the program below the heading NAME in a comment
 #   <!-- put: NAME -->         what build/numbers/NAME.txt has, but for its lines "key: value"
 #   <!-- /put -->
@@ -21,6 +21,7 @@ function excerpt(path, name,    line, status, end, part, found, result) {
             if (line == " * " name) { end = "^ [*]     }$"; continue }
             if (line ~ ("^typedef [a-z]+ " name " [{]$")) end = "^} " name ";$"
             if (line ~ ("^[A-Za-z](.*[^A-Za-z0-9_])?" name "[(]")) end = ";"
+            if (line ~ ("^typedef [a-z]+ " name "[(]")) end = "[)];$"
             if (end == "") continue
         }
         if (end == ";" && line ~ /[{]$/) end = "^}$" # a definition, not a declaration

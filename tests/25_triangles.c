@@ -903,6 +903,7 @@ static double sent(const rt_scene *scene, int from, int to, int count, double *a
             t++;
         const float root = sqrtf(rt_random(&rng));
         const float v = root * rt_random(&rng);
+        const rt__corners corners = rt__corners_of(mesh, t);
         rt_hit hit = untouched;
         hit.point =
             rt__blend(&corners, rt_dvec(1 - (double)root, (double)(root - v), (double)v));

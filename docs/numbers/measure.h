@@ -19,7 +19,7 @@ static double volume_of(const rt_custom_shape *shape)
         const rt_vec3 beside = rt_add(rt_scale(x, right), rt_scale(y, up));
         rt_ray ray = {rt_sub(rt_add(middle, beside), rt_scale(u, size)), u};
         rt_hit hit;
-        while (rt_hit_custom_shape(shape, &ray, FLT_MAX, &hit)) {
+        for (int n = 0; n < 99 && rt_hit_custom_shape(shape, &ray, FLT_MAX, &hit); n++) {
             if (hit.inside)
                 sum += (double)hit.t;
             ray.origin = rt_leave(hit.point, hit.normal, u);

@@ -31,7 +31,8 @@ static void describe(const char *name, const rt_scene *scene)
         printf(", a mesh of %d triangles with a gloss of %g",
                scene->meshes[i].triangle_count, scene->surfaces[ROOM_MESH].shininess);
     if (scene->custom_shape_count > 0)
-        printf(", a shape of one's own with a pattern");
+        printf(", a shape of one's own with a gloss of %g",
+               scene->surfaces[ROOM_PEDESTAL].shininess);
     for (int i = 0; i < scene->lamp_count; i++)
         printf(", a lamp of radius %g and %g W/sr", scene->lamps[i].radius,
                scene->lamps[i].intensity.x);
