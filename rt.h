@@ -3964,9 +3964,9 @@ static inline int rt__bin_of(const rt__entry *entry, int axis, float low, float 
 }
 
 /* How many leaves so many shapes make at least. */
-static inline double rt__leaves(int count)
+static inline int rt__leaves(int count)
 {
-    return (double)((count + 7) / 8);
+    return (count + 7) / 8;
 }
 
 /* The first cut of the cheapest two, and in *one and *two what it makes. */
@@ -4198,8 +4198,10 @@ static inline void rt__set_values(const rt_scene *scene, int number, float *valu
         rt__put_vec(values + 3, bounds.max);
         return;
     }
-    for (int k = 0; k < 3; k++)
-        rt__put_vec(values + 3 * k, rt_corner(&scene->meshes[p.mesh], p.part, k));
+    const rt__corners corners = rt__corners_of(&scene->meshes[p.mesh], p.part);
+    rt__put_vec(values, corners.a);
+    rt__put_vec(values + 3, corners.b);
+    rt__put_vec(values + 6, corners.c);
 }
 
 /* The leaf at rows[at]; returns what a node says of it. Columns without a number repeat
