@@ -89,10 +89,11 @@
  *
  * THREADS         Every function may run at the same time on several threads, as long as
  *                 nobody writes what another reads. rt_render starts threads by itself,
- *                 and they meet only when it ends; rt_build_bvh does from 4096 shapes on,
- *                 as many as OpenMP offers. After that, in a child that fork()
- *                 makes, GNU's OpenMP hangs as soon as it needs more than one thread:
- *                 give options.threads = 1 there, or fork before the first picture.
+ *                 and they meet only when it ends; rt_build_bvh does so for more than
+ *                 65536 shapes, as many as OpenMP offers. After that, in a child that
+ *                 fork() makes, GNU's OpenMP hangs as soon as it needs more than one
+ *                 thread: give options.threads = 1 there, or fork before the first
+ *                 picture.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
  *                 of threads or lanes, nor on how samples are split over calls (but see
  *                 rt_render on more than 4096 in one call). Pass -ffp-contract=off for
@@ -1571,7 +1572,7 @@ static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
 {
     if (scene->bvh->path)
         return rt__intersect_noted(scene, ray, hit);
-#ifndef RT__OWN /* the other search finds the same sooner, but calls no routine of yours */
+#ifndef RT__OWN /* finds the same sooner, but calls no routine of yours */
     if (scene->bvh->search)
         return scene->bvh->search(scene, ray, FLT_MAX, hit);
 #endif
@@ -3963,9 +3964,9 @@ static inline int rt__bin_of(const rt__entry *entry, int axis, float low, float 
 }
 
 /* How many leaves so many shapes make at least. */
-static inline double rt__leaves(int count)
+static inline int rt__leaves(int count)
 {
-    return (double)((count + 7) / 8);
+    return (count + 7) / 8;
 }
 
 /* The first cut of the cheapest two, and in *one and *two what it makes. */
@@ -4084,8 +4085,8 @@ static inline void rt__split_in_eight(rt__entry *entries, bool in_halves,
  * 2^28, 2^25 ... 2. Eight or less are a leaf, so there are less than 21 + 11 levels. */
 enum { RT__HALVES = RT__LEVELS - 11 };
 
-/* So many shapes are worth a task for another thread. */
-enum { RT__TASK = 4096 };
+/* Trees of more shapes than that are built by several threads, and so many are a task. */
+enum { RT__SHARED = 65536, RT__TASK = 4096 };
 
 /* A group of n > 8 shapes makes at most (n - 2) / 7 nodes: itself and those below. If its
  * node has only leaves, n >= 9. Else it has eight groups, m of them of more than eight
@@ -4197,8 +4198,10 @@ static inline void rt__set_values(const rt_scene *scene, int number, float *valu
         rt__put_vec(values + 3, bounds.max);
         return;
     }
-    for (int k = 0; k < 3; k++)
-        rt__put_vec(values + 3 * k, rt_corner(&scene->meshes[p.mesh], p.part, k));
+    const rt__corners corners = rt__corners_of(&scene->meshes[p.mesh], p.part);
+    rt__put_vec(values, corners.a);
+    rt__put_vec(values + 3, corners.b);
+    rt__put_vec(values + 6, corners.c);
 }
 
 /* The leaf at rows[at]; returns what a node says of it. Columns without a number repeat
@@ -4338,7 +4341,7 @@ static inline bool rt__build(const rt__builder *b, int count, int threads)
     rt__set_groups(b, count);
     (void)threads;
 #ifdef RT__TASKS
-#pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
+#pragma omp parallel num_threads(threads) if (count > RT__SHARED && threads > 1)
 #pragma omp single
 #endif
     rt__build_branch(b, 0, 0);
@@ -4346,7 +4349,7 @@ static inline bool rt__build(const rt__builder *b, int count, int threads)
     if (all->rows > INT_MAX / 4 || !rt__make_room(b->bvh, all->nodes, (int)all->rows))
         return false;
 #ifdef RT__TASKS
-#pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
+#pragma omp parallel num_threads(threads) if (count > RT__SHARED && threads > 1)
 #pragma omp single
 #endif
     rt__set_node(b, 0, 0, 0);
@@ -5479,8 +5482,10 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
 /* ---- what packets of rays want to know of a scene -------------------------------- */
 
 #if RT__LANES > 1
-/* So many shapes are asked one by one, without the tree: about there it takes as long. */
-enum { RT__FEW = 40 * RT__LANES, RT__FEW_OTHERS = 16 };
+/* So many shapes are asked one by one, without the tree: about there it takes as long. Of
+ * meshes and custom shapes, which are in the tree all the same, there may be some beside
+ * them. */
+enum { RT__FEW = RT__LANES == 16 ? 480 : 50 * RT__LANES, RT__FEW_OTHERS = 16 };
 
 typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
