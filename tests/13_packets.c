@@ -1029,7 +1029,7 @@ static void test_odd_scenes_with_meshes_and_own_shapes(void **state)
     (void)state;
     static odd_scene s;
     const int before = bright;
-    enum { SCENES = 3000 };
+    enum { SCENES = 1500 };
     int compared = 0;
     for (int i = 0; i < SCENES; i++) {
         rt_rng rng = rt_rng_start((uint32_t)i, 0, 68);

@@ -33,7 +33,7 @@ static inline bool my_hit_triangle(const rt_mesh *mesh, int triangle, const rt_r
                                  rt_dsub(rt_to_double(rt_corner(mesh, triangle, 2)), a));
     const double t = (area[0] * z[0] + area[1] * z[1] + area[2] * z[2]) / sum;
     if ((left > 0 && right > 0) || sum == 0 || rt_ddot(n, n) == 0 ||
-        !(t > 0 && t < (double)t_max))
+        !((float)t > 0 && (float)t < t_max))
         return false;
     hit->t = (float)t;
     hit->point =
