@@ -89,9 +89,11 @@
  *
  * THREADS         Every function may run at the same time on several threads, as long as
  *                 nobody writes what another reads. rt_render starts threads by itself,
- *                 and they meet only when it ends. After that, in a child that fork()
- *                 makes, GNU's OpenMP hangs as soon as it needs more than one thread:
- *                 give options.threads = 1 there, or fork before the first picture.
+ *                 and they meet only when it ends; rt_build_bvh does so for more than
+ *                 65536 shapes, as many as OpenMP offers. After that, in a child that
+ *                 fork() makes, GNU's OpenMP hangs as soon as it needs more than one
+ *                 thread: give options.threads = 1 there, or fork before the first
+ *                 picture.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
  *                 of threads or lanes, nor on how samples are split over calls (but see
  *                 rt_render on more than 4096 in one call). Pass -ffp-contract=off for
@@ -1565,32 +1567,27 @@ static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
 static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
                                       float t_max);
 
-/* The search of the last section finds the same sooner, but calls no routine of yours. */
-#ifdef RT__OWN
-#define RT__FASTER(scene) NULL
-#else
-#define RT__FASTER(scene) (scene)->bvh->search
-#endif
-
 static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
                                      rt_hit *hit)
 {
-    rt__search_function *faster = RT__FASTER(scene);
     if (scene->bvh->path)
         return rt__intersect_noted(scene, ray, hit);
-    if (faster)
-        return faster(scene, ray, FLT_MAX, hit);
+#ifndef RT__OWN /* finds the same sooner, but calls no routine of yours */
+    if (scene->bvh->search)
+        return scene->bvh->search(scene, ray, FLT_MAX, hit);
+#endif
     const int number = rt__search(scene, ray, FLT_MAX, false);
     return number >= 0 && rt__hit_shape(scene, number, ray, 0.0, hit);
 }
 
 static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, float t_max)
 {
-    rt__search_function *faster = RT__FASTER(scene);
     if (scene->bvh->path)
         return rt__occluded_noted(scene, ray, t_max);
-    if (faster)
-        return faster(scene, ray, t_max, NULL);
+#ifndef RT__OWN
+    if (scene->bvh->search)
+        return scene->bvh->search(scene, ray, t_max, NULL);
+#endif
     return rt__search(scene, ray, t_max, true) >= 0;
 }
 
@@ -2378,9 +2375,10 @@ static inline rt_vec3 rt_albedo(const rt_surface *surface, const rt_hit *hit)
  * Chapter 16. Triangles
  * ==================================================================================== */
 
-/* A mesh of triangles: what a model from a file consists of. The arrays are yours. Of one
- * triangle three corners A, B, C count, so neighbours share positions, and a corner that
- * moves takes all of its triangles along. A mesh of several materials is several meshes. */
+/* A mesh of triangles: what a model from a file consists of. The arrays are yours. Of
+ * one triangle three corners A, B, C count, so neighbours share positions, and a corner
+ * that moves takes all of its triangles along. A mesh of several materials is several
+ * meshes. */
 typedef struct rt_mesh {
     const rt_vec3 *positions;
     const int *indices; /* three for each triangle, into positions: A, B, C, as seen from
@@ -3330,10 +3328,11 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
                                const rt_options *options, const rt_image *image, int x,
                                int y, int sample, rt_path *path);
 
-/* Build a tree over the shapes of the scene, in time n log n: *bvh is overwritten, then
- * set scene->bvh = bvh. When a shape or its material changes, build it anew. Memory: 130
- * bytes are asked of RT_MALLOC for each shape, of which some 80 are used, for rt_free_bvh
- * to give back; and 28 more while it builds.
+/* Build a tree over the shapes of the scene, in time n log n, on all cores, the same tree
+ * on any number of them: *bvh is overwritten, then set scene->bvh = bvh. When a shape or
+ * its material changes, build it anew. Memory: about 36 bytes for a sphere, 60 for a
+ * triangle are asked of RT_MALLOC, for rt_free_bvh to give back; while it builds 70 more
+ * for each.
  *
  * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
 RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
@@ -3965,9 +3964,9 @@ static inline int rt__bin_of(const rt__entry *entry, int axis, float low, float 
 }
 
 /* How many leaves so many shapes make at least. */
-static inline double rt__leaves(int count)
+static inline int rt__leaves(int count)
 {
-    return (double)((count + 7) / 8);
+    return (count + 7) / 8;
 }
 
 /* The first cut of the cheapest two, and in *one and *two what it makes. */
@@ -3995,14 +3994,14 @@ static inline int rt__cheapest_cut(const rt__bin *bins, rt__bin *one, rt__bin *t
     return best;
 }
 
-/* Cut a group into itself and another. middles: in the box around the middles of all, out
- * those of both.
+/* Cut a group into itself and another. middles: in the box around the middles of all,
+ * out those of both.
  *
- * A ray enters a box in proportion to its surface, and then asks what is inside: the
- * two cost A_left n_left + A_right n_right. Of 15 cuts across the longest axis the
- * cheapest is taken: the surface area heuristic, in bins (I. Wald, "On fast
- * construction of SAH-based bounding volume hierarchies", 2007). A giant among small
- * shapes is cut off by it at once, and spoils only the boxes above. */
+ * A ray enters a box in proportion to its surface, and then asks what is inside, leaf by
+ * leaf: the two cost A_left n_left + A_right n_right, if n counts leaves. Of 15 cuts
+ * across the longest axis the cheapest is taken: the surface area heuristic, in bins (I.
+ * Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007). A giant
+ * among small shapes is cut off by it at once, and spoils only the boxes above. */
 static inline void rt__split(rt__entry *entries, bool in_halves, rt__group *group,
                              rt__bounds *middles, rt__group *other,
                              rt__bounds *other_middles)
@@ -4083,11 +4082,11 @@ static inline void rt__split_in_eight(rt__entry *entries, bool in_halves,
 /* Which level of the tree is the first to be cut in halves. Above it the cheapest cut may
  * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level
  * a node has less than 2^31 shapes, on each of the next ten at most an eighth as many:
- * 2^28, 2^25 ... 2. That is a leaf, so there are 21 + 11 levels at most. */
+ * 2^28, 2^25 ... 2. Eight or less are a leaf, so there are less than 21 + 11 levels. */
 enum { RT__HALVES = RT__LEVELS - 11 };
 
-/* So many shapes are worth a task for another thread. */
-enum { RT__TASK = 4096 };
+/* Trees of more shapes than that are built by several threads, and so many are a task. */
+enum { RT__SHARED = 65536, RT__TASK = 4096 };
 
 /* A group of n > 8 shapes makes at most (n - 2) / 7 nodes: itself and those below. If its
  * node has only leaves, n >= 9. Else it has eight groups, m of them of more than eight
@@ -4106,12 +4105,6 @@ typedef struct rt__builder {
     rt__branch *branches;
     rt_bvh *bvh;
 } rt__builder;
-
-/* Does a group deserve a task? */
-static inline bool rt__is_large(const rt__group *group)
-{
-    return group->count > RT__TASK;
-}
 
 /* The kind of the shape with this number, see rt_bvh_row, ... */
 static inline int rt__kind_of(const rt_scene *scene, int number)
@@ -4142,14 +4135,10 @@ static inline void rt__build_branch(const rt__builder *b, int at, int depth)
             continue;
         memset(b->branches[slice].groups, 0, sizeof b->branches[slice].groups);
         b->branches[slice].groups[0] = *group;
-        if (rt__is_large(group)) {
 #ifdef RT__TASKS
-#pragma omp task
+#pragma omp task if (group->count > RT__TASK)
 #endif
-            rt__build_branch(b, slice, depth + 1);
-        } else {
-            rt__build_branch(b, slice, depth + 1);
-        }
+        rt__build_branch(b, slice, depth + 1);
         slice += rt__most_nodes(group->count);
     }
 #ifdef RT__TASKS
@@ -4209,8 +4198,10 @@ static inline void rt__set_values(const rt_scene *scene, int number, float *valu
         rt__put_vec(values + 3, bounds.max);
         return;
     }
-    for (int k = 0; k < 3; k++)
-        rt__put_vec(values + 3 * k, rt_corner(&scene->meshes[p.mesh], p.part, k));
+    const rt__corners corners = rt__corners_of(&scene->meshes[p.mesh], p.part);
+    rt__put_vec(values, corners.a);
+    rt__put_vec(values + 3, corners.b);
+    rt__put_vec(values + 6, corners.c);
 }
 
 /* The leaf at rows[at]; returns what a node says of it. Columns without a number repeat
@@ -4230,9 +4221,9 @@ static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int
     return at << 2 | kind;
 }
 
-/* The order in which a ray meets the boxes, the last first. Bit 0, 1, 2 of octant: it goes down along x,
- * y, z. It is a guess, by where they begin, and only the time depends on it. Eight
- * numbers of three bits. */
+/* The order in which a ray meets the boxes, the last first: eight numbers of three bits
+ * for each octant, of which bit 0, 1, 2 says that the ray goes down along x, y, z. It
+ * goes by the middles of the boxes, and is a guess. Only the time depends on it. */
 static inline void rt__set_order(rt_bvh_node *node)
 {
     for (int octant = 0; octant < 8; octant++) {
@@ -4248,7 +4239,7 @@ static inline void rt__set_order(rt_bvh_node *node)
         for (int k = 0; k < 8; k++) { /* how many come after it? */
             int after = k < node->count ? 0 : k;
             for (int i = 0; k < node->count && i < node->count; i++)
-                after += place[i] > place[k] || (place[i] == place[k] && i < k);
+                after += place[i] > place[k] || (i < k && place[i] == place[k]);
             order |= (uint32_t)k << 3 * after;
         }
         for (int i = 0; i < 3; i++)
@@ -4279,14 +4270,10 @@ static inline void rt__set_node(const rt__builder *b, int at, int number, int ro
             continue;
         }
         node->inside[k] = -number;
-        if (rt__is_large(group)) {
 #ifdef RT__TASKS
-#pragma omp task
+#pragma omp task if (group->count > RT__TASK)
 #endif
-            rt__set_node(b, slice, number, row);
-        } else {
-            rt__set_node(b, slice, number, row);
-        }
+        rt__set_node(b, slice, number, row);
         number += b->branches[slice].nodes;
         row += (int)b->branches[slice].rows;
         slice += rt__most_nodes(group->count);
@@ -4354,7 +4341,7 @@ static inline bool rt__build(const rt__builder *b, int count, int threads)
     rt__set_groups(b, count);
     (void)threads;
 #ifdef RT__TASKS
-#pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
+#pragma omp parallel num_threads(threads) if (count > RT__SHARED && threads > 1)
 #pragma omp single
 #endif
     rt__build_branch(b, 0, 0);
@@ -4362,7 +4349,7 @@ static inline bool rt__build(const rt__builder *b, int count, int threads)
     if (all->rows > INT_MAX / 4 || !rt__make_room(b->bvh, all->nodes, (int)all->rows))
         return false;
 #ifdef RT__TASKS
-#pragma omp parallel num_threads(threads) if (count > RT__TASK && threads > 1)
+#pragma omp parallel num_threads(threads) if (count > RT__SHARED && threads > 1)
 #pragma omp single
 #endif
     rt__set_node(b, 0, 0, 0);
@@ -5495,15 +5482,17 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
 /* ---- what packets of rays want to know of a scene -------------------------------- */
 
 #if RT__LANES > 1
-/* So many shapes are asked one by one, without the tree: about there it takes as long. */
-enum { RT__FEW = 40 * RT__LANES, RT__FEW_OTHERS = 16 };
+/* So many shapes are asked one by one, without the tree: about there it takes as long. Of
+ * meshes and custom shapes, which are in the tree all the same, there may be some beside
+ * them. */
+enum { RT__FEW = RT__LANES == 16 ? 480 : 50 * RT__LANES, RT__FEW_OTHERS = 16 };
 
 typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
 } rt__column;
 
-/* The shapes of a scene, column by column, by their number in rt_hit; of meshes and custom
- * shapes the boxes around them, see rt__near_others. */
+/* The shapes of a scene, column by column, by their number in rt_hit; of meshes and
+ * custom shapes the boxes around them, see rt__near_others. */
 struct rt__table {
     bool few;                      /* else there is nothing here, and rays ask the tree */
     int spheres, count, all;       /* up to count are spheres and boxes */
@@ -6401,8 +6390,10 @@ RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray 
     return true;
 }
 
-/* rt__enter, for the boxes k to k + RT__STEP - 1: they are met if *t <= *out. The box
- * without an inside that stands where there is none is never met. */
+/* rt__enter, for the boxes k to k + RT__STEP - 1: they are met if *t <= *out. It knows
+ * by octant through which plane of each axis the ray comes. Infinite planes stand where
+ * there is no box, and are never met. p->in in place of the inverse makes the ways in
+ * shorter by 8 roundings; up to 4 were too long, and the ways out up to 3 too short. */
 RT__INLINE void rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p, float t_max,
                                 int k, rt__boxes *t, rt__boxes *out)
 {
@@ -6419,7 +6410,22 @@ RT__INLINE void rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p, flo
     *out = rt__bmin(rt__bmin(out_x, out_y), rt__bmin(out_z, t_max - zero));
 }
 
-/* Which spheres of a leaf may the ray meet before t_max? */
+/* Which spheres of a leaf may the ray meet before t_max? All of those that it does meet,
+ * and hardly any other: here is why none is missed.
+ *
+ * With g = O - C the point nearest to the centre is at t = b = <g,u> / <u,u>, and the
+ * ray meets the sphere if l = g - b u is not longer than R; then between b - h and b +
+ * h, h = sqrt(R^2 - l^2) / |u|. Let e = 2^-24. Rounding g, <g,u>, <u,u>, the quotient
+ * makes b u wrong by 9 e |g| at most; with g itself and l, l is wrong by less than 14 e
+ * |g|. And for any k, (R + d)^2 <= (1 + k) R^2 + (1 + 1/k) d^2. So with k = 0.0009
+ *
+ *     l^2 as computed  <=  (R + 14 e |g|)^2 (1 + 4e)  <  1.00091 R^2 + 8e-10 g^2,
+ *
+ * less than reach below, where 1e-30 makes good what squares lose that are too small for
+ * a float. With k = 0.0005 likewise (|u| h)^2 as computed >= R^2 - l^2 + 0.0004 R^2, so
+ * h is too large by 0.0001 R / |u| or more. b is wrong by 9 e |g| / |u|, and |g| <= |b
+ * u| + R: the first part, and the rounding of t, is less than 1e-6 |b|, the second less
+ * than what h has too much. */
 RT__INLINE unsigned rt__near_spheres(const rt_bvh_row *row, const rt__probe *p,
                                      float t_max, int k)
 {
@@ -6438,13 +6444,14 @@ RT__INLINE unsigned rt__near_spheres(const rt_bvh_row *row, const rt__probe *p,
     const rt__boxes ll = rt__bfma(lx, lx, rt__bfma(ly, ly, lz * lz));
     const rt__boxes reach = rt__bfma(ff, 2e-9f - zero, r * r * 1.001f + 1e-30f) - ll;
     const rt__boxes h = rt__bsqrt(rt__bmax(reach, zero)) * p->over_root;
-    const rt__boxes slack = h * 1e-4f + rt__babs(b) * 1e-6f;
+    const rt__boxes slack = rt__babs(b) * 1e-6f;
     const rt__boxes begin = b - h - slack, end = b + h + slack;
     return rt__bat_most(zero, reach) & rt__bat_most(begin, t_max - zero) &
            rt__bat_most(zero, end);
 }
 
-/* Which boxes? They are made a little larger, as in rt__shape_bounds. */
+/* Which boxes, or boxes around custom shapes? As in rt__enter_boxes; they are made a
+ * little larger, as in rt__with_margin. */
 RT__INLINE unsigned rt__near_boxes(const rt_bvh_row *row, const rt__probe *p, float t_max,
                                    int k)
 {
@@ -6464,7 +6471,7 @@ RT__INLINE unsigned rt__near_boxes(const rt_bvh_row *row, const rt__probe *p, fl
     return rt__bat_most(t_in * (1.0f - 4.0f * FLT_EPSILON), t_out);
 }
 
-/* Corner number corner of eight triangles, sheared; and the largest coordinates so far. */
+/* One corner of each triangle, sheared; and the largest coordinates so far. */
 RT__INLINE void rt__shear_corner(const rt_bvh_row *row, const rt__probe *p, int k,
                                  int corner, rt__boxes *x, rt__boxes *y, rt__boxes *most,
                                  rt__boxes *most_z)
@@ -6480,7 +6487,16 @@ RT__INLINE void rt__shear_corner(const rt_bvh_row *row, const rt__probe *p, int 
     *most_z = rt__bmax(*most_z, rt__babs(z));
 }
 
-/* Which triangles? */
+/* Which triangles? The weights of chapter 16 in float, and a bound for their error.
+ *
+ * Let e = 2^-24, R the largest sheared coordinate of a triangle, Z the largest z. p - C
+ * is rounded once, the factor u_x / u_z, which is at most 1, once, and their sum: x and y
+ * are wrong by e (2 R + 5 Z) at most, less than error = 6 e (R + Z); so much less that
+ * the rounding of error and bound does not count. Then each of the two products of a
+ * weight is wrong by 2 R error + error^2, and the three roundings add 4 e R^2; 1e-37
+ * makes good what products lose that are too small for a float. Double, which chapter 16
+ * takes, is wrong by next to nothing beside that. So if the ray is inside for chapter 16,
+ * no weight is below -bound, or none is above bound. */
 RT__INLINE unsigned rt__near_triangles(const rt_bvh_row *row, const rt__probe *p, int k)
 {
     const float e = 0.5f * FLT_EPSILON;
@@ -6663,9 +6679,9 @@ RT__INLINE __m256i rt__unpack(uint32_t places)
                              _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21));
 }
 
-/* Enter a node: returns what is inside of one of the boxes that are met, if *met, of the
- * nearest as far as order knows it; the others wait on the stack, the next last. If any
- * will do, so does any order. */
+/* Enter a node. *met: is a box met? Returns what is inside of the first; the others are
+ * put on the stack, the next one last, all at once: a loop over them would go so many
+ * times as no core can guess. If any hit will do, so does any order. */
 RT__INLINE int rt__enter_node(rt__stack *stack, const rt_bvh_node *node,
                               const rt__probe *p, float t_max, bool any, bool *met)
 {
@@ -6734,7 +6750,8 @@ RT__INLINE int rt__enter_node(rt__stack *stack, const rt_bvh_node *node,
 }
 #endif
 
-/* rt__search. */
+/* rt__search; but boxes come in the order of the octant, not of t, and the next one does
+ * not go by way of the stack. */
 RT__INLINE bool rt__search_rows(const rt_scene *scene, const rt__probe *p, bool any,
                                 rt__found *found)
 {

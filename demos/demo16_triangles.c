@@ -10,7 +10,7 @@
 
 /* The corner as the ray sees it: from its origin, and straight ahead is z, the axis along which
  * u is longest. A step of 1 along it is *step long. */
-static rt_dvec3 seen(const rt_ray *ray, rt_vec3 corner, double *step)
+static rt_dvec3 seen_from(const rt_ray *ray, rt_vec3 corner, double *step)
 {
     const rt_dvec3 v = rt_to_double(ray->direction);
     const rt_dvec3 d = rt_dsub(rt_to_double(corner), rt_to_double(ray->origin));
@@ -29,7 +29,7 @@ static bool hit_triangle(const rt_mesh *mesh, int triangle, const rt_ray *ray,
     double step;
     for (int k = 0; k < 3; k++) {
         corner[k] = rt_to_double(rt_corner(mesh, triangle, k));
-        v[k] = seen(ray, rt_corner(mesh, triangle, k), &step);
+        v[k] = seen_from(ray, rt_corner(mesh, triangle, k), &step);
     }
     double w[3]; /* on which side of the edge across from a corner is the ray? */
     for (int k = 0; k < 3; k++) {

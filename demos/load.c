@@ -128,31 +128,32 @@ static bool is_triangle(const struct aiFace *face)
     return face->mNumIndices == 3; /* others are points and lines */
 }
 
-static void hand_over(const char *path, FILE *to)
+/* All triangles, counted, then told. */
+static void hand_over(const struct aiScene *scene, head *h, FILE *to)
 {
-    head h = {.why = ""};
-    const struct aiScene *scene = import(path, h.why, sizeof h.why);
     uint64_t positions = 0, triangles = 0;
-    for (unsigned m = 0; scene && m < scene->mNumMeshes; m++) {
+    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
         positions += scene->mMeshes[m]->mNumVertices;
         for (unsigned f = 0; f < scene->mMeshes[m]->mNumFaces; f++)
             triangles += is_triangle(&scene->mMeshes[m]->mFaces[f]);
     }
-    if (scene && triangles == 0)
-        snprintf(h.why, sizeof h.why, "%s", no_triangles);
+    if (triangles == 0)
+        snprintf(h->why, sizeof h->why, "%s", no_triangles);
     else if (triangles > TRIANGLES || positions > 3 * (uint64_t)TRIANGLES)
-        snprintf(h.why, sizeof h.why, "more than %d triangles", TRIANGLES);
-    h.position_count = *h.why ? 0 : (int)positions;
-    h.triangle_count = *h.why ? 0 : (int)triangles;
-    fwrite(&h, sizeof h, 1, to);
-    for (unsigned m = 0; !*h.why && m < scene->mNumMeshes; m++)
+        snprintf(h->why, sizeof h->why, "more than %d triangles", TRIANGLES);
+    if (*h->why)
+        return;
+    h->position_count = (int)positions;
+    h->triangle_count = (int)triangles;
+    fwrite(h, sizeof *h, 1, to);
+    for (unsigned m = 0; m < scene->mNumMeshes; m++)
         for (unsigned i = 0; i < scene->mMeshes[m]->mNumVertices; i++) {
             const struct aiVector3D p = scene->mMeshes[m]->mVertices[i];
             const float xyz[3] = {(float)p.x, (float)p.y, (float)p.z};
             fwrite(xyz, sizeof xyz, 1, to);
         }
     unsigned first = 0;
-    for (unsigned m = 0; !*h.why && m < scene->mNumMeshes; m++) {
+    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
         for (unsigned f = 0; f < scene->mMeshes[m]->mNumFaces; f++) {
             const struct aiFace *face = &scene->mMeshes[m]->mFaces[f];
             for (unsigned k = 0; k < 3 && is_triangle(face); k++) {
@@ -164,6 +165,20 @@ static void hand_over(const char *path, FILE *to)
     }
 }
 
+/* Into the file. False: not even why there is nothing in it could be written. */
+static bool read_here(const char *path, FILE *to)
+{
+    head h = {.why = ""};
+    const struct aiScene *scene = import(path, h.why, sizeof h.why);
+    if (scene)
+        hand_over(scene, &h, to);
+    else if (!*h.why)
+        snprintf(h.why, sizeof h.why, "assimp does not say why");
+    if (*h.why)
+        fwrite(&h, sizeof h, 1, to);
+    return fflush(to) == 0 && !ferror(to);
+}
+
 /* How it ended. */
 static int read_elsewhere(const char *path, FILE *file)
 {
@@ -173,8 +188,7 @@ static int read_elsewhere(const char *path, FILE *file)
         set_limits();
         if (!freopen("/dev/null", "w", stderr)) /* libraries complain as they like */
             _exit(1);
-        hand_over(path, file);
-        _exit(fflush(file) == 0 ? 0 : 1);
+        _exit(read_here(path, file) ? 0 : 1);
     }
     while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
         ;
@@ -193,7 +207,8 @@ static const char *fault(const rt_mesh *mesh)
         const rt_vec3 p = mesh->positions[i], q = mesh->positions[0];
         if (!(fabsf(p.x) <= 1e15f && fabsf(p.y) <= 1e15f && fabsf(p.z) <= 1e15f))
             return "a position is not a number, or larger than 1e15";
-        some = some || !rt_is_zero(rt_sub(p, q));
+        const rt_vec3 d = rt_sub(p, q);
+        some = some || fabsf(d.x) + fabsf(d.y) + fabsf(d.z) > 1e-30f;
     }
     for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++)
         if (mesh->indices[i] < 0 || mesh->indices[i] >= mesh->position_count)

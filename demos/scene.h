@@ -207,25 +207,25 @@ static MOVABLE rt_surface mesh_surfaces[ROOM_SHAPES] = {
     [ROOM_PEDESTAL] = {.shininess = 200}, /* polished wood */
 };
 
-static const rt_scene scene_triangles = {.spheres = room_spheres,
-                                         .sphere_count = 8,
-                                         .bvh = &room_trees[ON_THE_FLOOR],
-                                         .lamps = &room_lamp,
-                                         .lamp_count = 1,
-                                         .surfaces = mesh_surfaces,
-                                         .meshes = &room_meshes[ON_THE_FLOOR],
-                                         .mesh_count = 1};
+static MOVABLE rt_scene scene_triangles = {.spheres = room_spheres,
+                                           .sphere_count = 8,
+                                           .bvh = &room_trees[ON_THE_FLOOR],
+                                           .lamps = &room_lamp,
+                                           .lamp_count = 1,
+                                           .surfaces = mesh_surfaces,
+                                           .meshes = &room_meshes[ON_THE_FLOOR],
+                                           .mesh_count = 1};
 
-static const rt_scene scene_own_shape = {.spheres = room_spheres,
-                                         .sphere_count = 8,
-                                         .bvh = &room_trees[ON_THE_PEDESTAL],
-                                         .lamps = &room_lamp,
-                                         .lamp_count = 1,
-                                         .surfaces = mesh_surfaces,
-                                         .meshes = &room_meshes[ON_THE_PEDESTAL],
-                                         .mesh_count = 1,
-                                         .custom_shapes = &room_pedestal,
-                                         .custom_shape_count = 1};
+static MOVABLE rt_scene scene_own_shape = {.spheres = room_spheres,
+                                           .sphere_count = 8,
+                                           .bvh = &room_trees[ON_THE_PEDESTAL],
+                                           .lamps = &room_lamp,
+                                           .lamp_count = 1,
+                                           .surfaces = mesh_surfaces,
+                                           .meshes = &room_meshes[ON_THE_PEDESTAL],
+                                           .mesh_count = 1,
+                                           .custom_shapes = &room_pedestal,
+                                           .custom_shape_count = 1};
 
 /* The teapot, turned a little. */
 static inline void room_make_teapot(void)
@@ -281,6 +281,7 @@ static inline void room_prepare(int which)
     const rt_scene *scenes[MESH_SCENES] = {&scene_triangles, &scene_own_shape};
     if (!room_model.positions)
         room_make_teapot();
+    const rt_vec3 *model = room_model.positions;
     const int count = room_model.position_count;
     const rt_vec3 to = room_mesh_place(which);
     const float R = room_cylinder.radius;
@@ -289,13 +290,13 @@ static inline void room_prepare(int which)
     rt_free_bvh(&room_trees[which]);
     if (room_meshes[which].position_count != count) {
         free(placed[which]);
-        placed[which] = malloc((size_t)count * sizeof(rt_vec3));
+        placed[which] = malloc((size_t)(count + 1) * sizeof(rt_vec3));
         room_meshes[which].position_count = 0;
     }
-    if (!placed[which])
+    if (!placed[which] || !model)
         return;
     for (int i = 0; i < count; i++) {
-        const rt_vec3 p = rt_sub(room_model.positions[i], room_model.foot);
+        const rt_vec3 p = rt_sub(model[i], room_model.foot);
         placed[which][i] = rt_add(to, rt_scale(p, room_model.scale));
     }
     room_meshes[which] = (rt_mesh){.positions = placed[which],

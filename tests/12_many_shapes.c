@@ -519,6 +519,26 @@ static void test_every_shape_is_in_the_tree_once(void **state)
             }
 }
 
+static void test_the_same_tree_by_any_number_of_threads(void **state)
+{
+    (void)state;
+    rt_rng rng = rt_rng_start(0, 0, 55);
+    many m = random_shapes(SIZES, 90000, 1, &rng); /* enough for several threads */
+    for (int threads = 1; threads < 6; threads += 2) {
+        rt_bvh other;
+        assert_int_equal(rt__build_bvh(&m.scene, threads, &other), RT_OK);
+        assert_int_equal(other.node_count, m.bvh.node_count);
+        assert_int_equal(other.row_count, m.bvh.row_count);
+        assert_memory_equal(other.nodes, m.bvh.nodes,
+                            (size_t)other.node_count * sizeof *other.nodes);
+        assert_memory_equal(other.rows, m.bvh.rows,
+                            (size_t)other.row_count * sizeof *other.rows);
+        rt_free_bvh(&other);
+    }
+    check_tree(&m);
+    free_scene(&m);
+}
+
 static void test_shapes_at_1_2_4_8(void **state)
 {
     /* Cut into parts of equal width, all but one of them are always in the same part: the
@@ -880,6 +900,7 @@ int main(void)
         cmocka_unit_test(test_an_empty_tree),
         cmocka_unit_test(test_pictures_with_a_tree_of_ones_own),
         cmocka_unit_test(test_every_shape_is_in_the_tree_once),
+        cmocka_unit_test(test_the_same_tree_by_any_number_of_threads),
         cmocka_unit_test(test_shapes_at_1_2_4_8),
         cmocka_unit_test(test_ten_thousand_equal_shapes),
         cmocka_unit_test(test_concentric_spheres),

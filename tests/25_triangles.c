@@ -1204,10 +1204,13 @@ static void test_too_many_triangles_for_an_int(void **state)
     /* Their arrays would have to be there to be checked; the count alone must not overflow. */
     (void)state;
     rt_mesh many[3] = {mesh_of(plate), mesh_of(plate), mesh_of(plate)};
-    for (int i = 0; i < 3; i++)
-        many[i].triangle_count = INT_MAX;
     rt_scene scene = scene_of(many, 3);
-    assert_int_equal(rt__triangle_count(&scene), INT_MAX);
+    for (int most = 1500000000; most > 0; most = most < INT_MAX ? INT_MAX : 0) {
+        for (int i = 0; i < 3; i++)
+            many[i].triangle_count = most;
+        assert_int_equal(rt__triangle_count(&scene), INT_MAX);
+    }
+    many[0].triangle_count = INT_MAX;
     assert_int_equal(rt__primitive_count(&scene), INT_MAX);
     scene.mesh_count = 1;
     scene.sphere_count = scene.custom_shape_count = INT_MAX;

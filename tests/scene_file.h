@@ -15,6 +15,7 @@ typedef struct scene_file {
     rt_scene scene; /* of the shapes and the light below */
     rt_sphere *spheres;
     rt_box *boxes;
+    rt_mesh *meshes;
     rt_surface *surfaces;
     rt_light light; /* or, with a radius, */
     rt_lamp lamp;
@@ -121,11 +122,43 @@ static inline rt_surface json_surface(scene_file *file, const cJSON *shape)
     return surface;
 }
 
+static inline void json_mesh(scene_file *file, const cJSON *shape, rt_mesh *mesh)
+{
+    const cJSON *positions = cJSON_GetObjectItemCaseSensitive(shape, "positions");
+    const cJSON *indices = cJSON_GetObjectItemCaseSensitive(shape, "indices");
+    const int floats = cJSON_GetArraySize(positions), ints = cJSON_GetArraySize(indices);
+    rt_vec3 *p = calloc((size_t)floats / 3 + 1, sizeof *p);
+    int *corner = calloc((size_t)ints + 1, sizeof *corner);
+    const cJSON *item;
+    int i = 0;
+    mesh->positions = p;
+    mesh->indices = corner;
+    mesh->material = json_material(file, shape);
+    if (!p || !corner || floats % 3 != 0 || ints % 3 != 0) {
+        scene_error(file, "meshes", "need three numbers for each position and triangle");
+        return;
+    }
+    mesh->position_count = floats / 3;
+    mesh->triangle_count = ints / 3;
+    cJSON_ArrayForEach(item, positions)
+    {
+        rt_vec3 *v = &p[i / 3];
+        *(i % 3 == 0 ? &v->x : i % 3 == 1 ? &v->y : &v->z) = (float)item->valuedouble;
+        i++;
+    }
+    cJSON_ArrayForEach(item, indices) *corner++ = item->valueint;
+}
+
 static inline void free_scene(scene_file *file)
 {
     free(file->surfaces);
     free(file->spheres);
     free(file->boxes);
+    for (int i = 0; i < file->scene.mesh_count; i++) {
+        free((void *)(uintptr_t)file->meshes[i].positions);
+        free((void *)(uintptr_t)file->meshes[i].indices);
+    }
+    free(file->meshes);
     memset(file, 0, sizeof *file);
 }
 
@@ -135,6 +168,7 @@ static inline void json_scene(scene_file *file, const cJSON *json)
     const cJSON *light = cJSON_GetObjectItemCaseSensitive(json, "light");
     const cJSON *sphere_list = cJSON_GetObjectItemCaseSensitive(json, "spheres");
     const cJSON *box_list = cJSON_GetObjectItemCaseSensitive(json, "boxes");
+    const cJSON *mesh_list = cJSON_GetObjectItemCaseSensitive(json, "meshes");
     const cJSON *integrator = cJSON_GetObjectItemCaseSensitive(json, "integrator");
     const cJSON *shape;
 
@@ -169,12 +203,15 @@ static inline void json_scene(scene_file *file, const cJSON *json)
 
     const size_t sphere_room = (size_t)cJSON_GetArraySize(sphere_list) + 1;
     const size_t box_room = (size_t)cJSON_GetArraySize(box_list) + 1;
+    const size_t mesh_room = (size_t)cJSON_GetArraySize(mesh_list) + 1;
     file->spheres = calloc(sphere_room, sizeof *file->spheres);
     file->boxes = calloc(box_room, sizeof *file->boxes);
-    file->surfaces = calloc(sphere_room + box_room, sizeof *file->surfaces);
+    file->meshes = calloc(mesh_room, sizeof *file->meshes);
+    file->surfaces = calloc(sphere_room + box_room + mesh_room, sizeof *file->surfaces);
     file->scene.spheres = file->spheres;
     file->scene.boxes = file->boxes;
-    if (!file->spheres || !file->boxes || !file->surfaces) {
+    file->scene.meshes = file->meshes;
+    if (!file->spheres || !file->boxes || !file->meshes || !file->surfaces) {
         scene_error(file, "scene", "not enough memory");
         return;
     }
@@ -194,6 +231,13 @@ static inline void json_scene(scene_file *file, const cJSON *json)
         box->min = json_vector(file, shape, "min");
         box->max = json_vector(file, shape, "max");
         box->material = json_material(file, shape);
+    }
+    cJSON_ArrayForEach(shape, mesh_list)
+    {
+        rt_scene *scene = &file->scene;
+        file->surfaces[scene->sphere_count + scene->box_count + scene->mesh_count] =
+            json_surface(file, shape);
+        json_mesh(file, shape, &file->meshes[scene->mesh_count++]);
     }
 }
 

@@ -166,6 +166,7 @@ async function bring_to_life(root, name, encoded) {
     }
     function refine() {
         const samples = ex.page_samples(), anew = stale;
+        dirty = false; /* a draft would end the job of its worker */
         if (anew) {
             run++;
             stale = false;
@@ -239,6 +240,7 @@ async function bring_to_life(root, name, encoded) {
     function is_noisy() { return compares() === NOISY; }
     function show_draft(m, w) {
         w.busy = false;
+        ex.page_draft_took(m.took / 1000); /* if it came too late, too: the next is smaller */
         if (m.draft > latest && ex.page_next(seconds()) === REST) {
             latest = m.draft;
             const small = make('canvas', {width: m.width, height: m.height});
@@ -246,7 +248,6 @@ async function bring_to_life(root, name, encoded) {
             context.imageSmoothingQuality = 'high';
             context.drawImage(small, 0, 0, W, H);
             root.classList.add('alive');
-            ex.page_draft_took(m.took / 1000);
             report.drafts.push(performance.now());
             if (moved_at)
                 report.moves.push(performance.now() - moved_at);

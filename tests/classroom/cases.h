@@ -283,6 +283,148 @@ static void box_bad(float *in, int k, uint32_t *state)
         in[6] -= 40; /* so that it does not start in the box */
 }
 
+/* A triangle, and a ray to a point of it, or beside: from this side of it, from so far away, with
+ * a direction of this length. */
+static void put_triangle(float *in, float size, bool behind, bool aims, range distance,
+                         range length, float t_max, uint32_t *state)
+{
+    const rt_vec3 middle = vec_between(state, -9, 9);
+    const rt_vec3 n = any_direction(state), side = across(n, state);
+    const rt_vec3 other = rt_cross(n, side);
+    const float turn = between(state, -0.3f, 0.3f);
+    const float d = pick(distance, state), l = pick(length, state);
+    rt_vec3 corner[3];
+    for (int k = 0; k < 3;
+         k++) { /* counterclockwise round n, no angle below 20 degrees */
+        const float x = k == 0 ? 1 : -0.5f, y = k == 0 ? turn : k == 1 ? 0.866f : -0.866f;
+        const float r = size * between(state, 0.7f, 1.3f);
+        corner[k] =
+            rt_add(middle, rt_scale(rt_add(rt_scale(side, x), rt_scale(other, y)), r));
+        put_vec(&in, corner[k]);
+    }
+    const float root = between(state, 0.1f, 0.9f), part = between(state, 0.1f, 0.9f);
+    rt_vec3 to = rt_add(
+        rt_scale(corner[0], 1 - root),
+        rt_scale(rt_add(rt_scale(corner[1], 1 - part), rt_scale(corner[2], part)), root));
+    if (!aims) /* as far beyond the edge between two corners */
+        to = rt_sub(rt_add(corner[1], rt_scale(rt_sub(corner[2], corner[1]), part)),
+                    rt_scale(rt_sub(corner[0], corner[1]), root));
+    const rt_vec3 lean = rt_scale(any_direction(state), 0.7f);
+    const rt_vec3 up = rt_normalize(rt_add(behind ? rt_scale(n, -1) : n, lean));
+    put_vec(&in, rt_add(to, rt_scale(up, d)));
+    put_vec(&in, rt_scale(up, -l));
+    *in = t_max;
+}
+
+static const range near_by = {2, 9};
+
+static void triangle_hit(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_triangle(in, 2, false, true, near_by, one, FLT_MAX, state);
+}
+
+static void triangle_back(float *in, int k, uint32_t *state)
+{
+    (void)k;
+    put_triangle(in, 2, true, true, near_by, one, FLT_MAX, state);
+}
+
+static void triangle_long(float *in, int k, uint32_t *state)
+{
+    put_triangle(in, 2, k % 2 != 0, true, near_by, (range){1e-3f, 20}, FLT_MAX, state);
+}
+
+static void triangle_small(float *in, int k, uint32_t *state)
+{
+    put_triangle(in, 1e-3f, k % 2 != 0, true, (range){0.1f, 1}, one, FLT_MAX, state);
+}
+
+static void triangle_far(float *in, int k, uint32_t *state)
+{
+    put_triangle(in, 2, k % 2 != 0, true, (range){100, 3000}, one, FLT_MAX, state);
+}
+
+static void triangle_miss(float *in, int k, uint32_t *state)
+{
+    put_triangle(in, 2, k % 2 != 0, false, near_by, one, FLT_MAX, state);
+}
+
+static void triangle_behind(float *in, int k, uint32_t *state)
+{
+    put_triangle(in, 2, k % 2 != 0, true, (range){-9, -1}, one, FLT_MAX, state);
+}
+
+static void triangle_limit(float *in, int k, uint32_t *state)
+{
+    put_triangle(in, 2, false, true, (range){5, 5}, one, k % 2 == 0 ? 4.9f : 5.1f, state);
+}
+
+/* A point, a line, or seen from the edge: coordinates for which that is exact. */
+static void triangle_flat(float *in, int k, uint32_t *state)
+{
+    const float x = floorf(between(state, -5, 5)), y = floorf(between(state, -5, 5));
+    const rt_vec3 a = {x, y, 2}, along = {2, 1, k % 3 == 0 ? 0 : 4};
+    const rt_vec3 beside = {0, 0, k % 3 == 2 ? 3 : 0};
+    const rt_vec3 b = rt_add(a, rt_scale(along, k % 3 == 0 ? 0 : 1));
+    const rt_vec3 c = rt_add(rt_add(a, rt_scale(along, k % 3 == 0 ? 0 : 2)), beside);
+    put_vec(&in, a);
+    put_vec(&in, b);
+    put_vec(&in, c);
+    const rt_vec3 to = rt_add(b, rt_scale(beside, 0.25f));
+    /* in the plane of the three, where they have one */
+    const rt_vec3 away = k % 3 == 2 ? rt_vec(-4, -2, 1) : rt_vec(-4, 3, 5);
+    put_vec(&in, rt_add(to, away));
+    put_vec(&in, rt_scale(away, -1));
+    *in = FLT_MAX;
+}
+
+static void triangle_bad(float *in, int k, uint32_t *state)
+{
+    triangle_hit(in, k, state);
+    if (k % 4 == 0)
+        in[12] = in[13] = in[14] = 0;
+    else
+        spoil(in, 0, 15, k);
+}
+
+/* Four triangles around a corner, one after the other, and one ray to the corner or to a point of
+ * one of the four edges that begin there. Of some all coordinates are whole numbers. */
+enum { FAN = 4 };
+
+static void triangle_fan(float *in, int k, uint32_t *state)
+{
+    uint32_t group = rt_hash(first_state + (uint32_t)(k / FAN));
+    const bool whole = k / FAN % 4 == 0;
+    const rt_vec3 corner = vec_between(&group, -9, 9);
+    const float size = between(&group, 0.2f, 2);
+    rt_vec3 points[FAN + 2];
+    for (int i = 0; i <= FAN; i++) { /* the corner comes last */
+        const float x = (float)((i == 0) - (i == 2)), z = (float)((i == 1) - (i == 3));
+        const float up = i < FAN ? between(&group, -0.3f, 0.3f) : 0;
+        const float wide = between(&group, 0.7f, 1.4f);
+        points[i] = rt_add(corner, rt_scale(rt_vec(wide * x, up, wide * z), size));
+        if (whole)
+            points[i] =
+                rt_vec(floorf(corner.x) + 4 * x, floorf(corner.y) + floorf(4 * up),
+                       floorf(corner.z) + 4 * z);
+    }
+    const float part = between(&group, -0.2f, 0.9f);
+    const rt_vec3 edge = rt_sub(points[k / FAN / 4 % FAN], points[FAN]);
+    const rt_vec3 to = rt_add(points[FAN], rt_scale(edge, part > 0 ? part : 0));
+    rt_vec3 away = vec_between(&group, -3, 3);
+    away.y = k / FAN % 2 ? 6 : -6;
+    if (whole)
+        away = rt_vec(floorf(away.x), away.y, floorf(away.z));
+    (void)state;
+    put_vec(&in, points[FAN]);
+    put_vec(&in, points[k % FAN]);
+    put_vec(&in, points[(k + 1) % FAN]);
+    put_vec(&in, rt_add(to, away));
+    put_vec(&in, rt_scale(away, -1)); /* so t is 1 */
+    *in = FLT_MAX;
+}
+
 /* A ray through a world: in[0] its number. From outside, or from among the things. */
 static void world_ray(float *in, int k, uint32_t *state)
 {
@@ -1294,6 +1436,28 @@ static int judge_disc(const float *in, const float *out, int count, char *why,
         "not the same all around the lens", why, size);
 }
 
+/* Each ray goes through at least one triangle of its fan, and meets it at t = 1. */
+static int judge_no_leak(const float *in, const float *out, int count, char *why,
+                         size_t size)
+{
+    (void)in;
+    for (int k = 0; k < count; k++) {
+        const float *fan = out + 9 * (k / FAN * FAN);
+        bool any = false;
+        for (int i = 0; i < FAN; i++)
+            any = any || fan[9 * i] > 0;
+        if (!any)
+            return snprintf(
+                       why, size,
+                       "a leak: the ray goes between this triangle and the next three, "
+                       "which meet there"),
+                   k;
+        if (out[9 * k] > 0 && !(fabsf(out[9 * k + 1] - 1) < 1e-3f))
+            return snprintf(why, size, "it is met at t = 1"), k;
+    }
+    return count;
+}
+
 /* ---- the table ------------------------------------------------------------------------- */
 
 static const kind kinds[] = {
@@ -1381,6 +1545,18 @@ static const kind kinds[] = {
     {"rt_lens_ray", "looks anywhere", lens_anywhere, judge_focus, 0},
     {"rt_lens_ray", "points of the lens, evenly", lens_straight, judge_disc, MANY},
     {"rt_lens_ray", "radius 0: the pinhole's ray", lens_pinhole, NULL, 0},
+    {"rt_hit_triangle", "hits from outside", triangle_hit, NULL, 0},
+    {"rt_hit_triangle", "hits from inside", triangle_back, NULL, 0},
+    {"rt_hit_triangle", "directions of any length", triangle_long, NULL, 0},
+    {"rt_hit_triangle", "small triangles", triangle_small, NULL, 0},
+    {"rt_hit_triangle", "passes by", triangle_miss, NULL, 0},
+    {"rt_hit_triangle", "the triangle is behind", triangle_behind, NULL, 0},
+    {"rt_hit_triangle", "t_max before or after the hit", triangle_limit, NULL, 0},
+    {"rt_hit_triangle", "without area, or from the edge", triangle_flat, NULL, 0},
+    {"rt_hit_triangle", "no direction, NaN, infinity", triangle_bad, NULL, 0},
+    {"rt_hit_triangle", "to a common edge or corner: no leak", triangle_fan,
+     judge_no_leak, MANY},
+    {"rt_hit_triangle", "far away", triangle_far, NULL, 0},
 };
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };

@@ -20,7 +20,7 @@
 #define STATIC ""
 #endif
 
-enum { LARGEST = 1 << 20, CHAPTERS = 15, LONGEST = 300 };
+enum { LARGEST = 1 << 20, CHAPTERS = 17, LONGEST = 300 };
 
 static struct {
     uint32_t seed;

@@ -166,6 +166,20 @@ static inline void call_hit_box(const float *in, float *out)
     put_hit(out, found, &hit, hit.material == &box.material ? 1.0f : -1.0f);
 }
 
+static inline void call_hit_triangle(const float *in, float *out)
+{
+    static const int face[3] = {0, 1, 2};
+    rt_vec3 corners[3];
+    rt_hit hit;
+    memset(&hit, 0, sizeof hit);
+    for (int k = 0; k < 3; k++)
+        corners[k] = take_vec(&in);
+    const rt_mesh mesh = {corners, face, 3, 1, {{0, 0, 0}, false}};
+    const rt_ray ray = take_ray(&in);
+    const bool found = rt_hit_triangle(&mesh, 0, &ray, *in, &hit);
+    put_hit(out, found, &hit, hit.material == &mesh.material ? 1.0f : -1.0f);
+}
+
 static inline void call_intersect(const float *in, float *out)
 {
     world w;
@@ -472,6 +486,11 @@ static const routine routines[] = {
       {"r2", 1}},
      {RAY},
      call_lens_ray},
+    {"rt_hit_triangle",
+     16,
+     {{"A", 3}, {"B", 3}, {"C", 3}, RAY, {"t_max", 1}},
+     HIT,
+     call_hit_triangle},
 };
 
 enum { ROUTINES = sizeof routines / sizeof routines[0] };

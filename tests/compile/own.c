@@ -2,12 +2,13 @@
 #define rt_camera_ray my_camera_ray
 #define rt_hit_sphere my_hit_sphere
 #define rt_hit_box my_hit_box
+#define rt_hit_triangle my_hit_triangle
 #define rt_lambert my_lambert
 #define rt_reflect my_reflect
 #define RT_IMPLEMENTATION
 #include "../../rt.h"
 
-static int asked[5];
+static int asked[6];
 
 static inline rt_ray my_camera_ray(const rt_camera *camera, int width, int height,
                                    float x, float y)
@@ -41,6 +42,14 @@ static inline bool my_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
     return false;
 }
 
+static inline bool my_hit_triangle(const rt_mesh *mesh, int triangle, const rt_ray *ray,
+                                   float t_max, rt_hit *hit)
+{
+    (void)mesh, (void)triangle, (void)ray, (void)t_max, (void)hit;
+    asked[5]++;
+    return false;
+}
+
 static inline rt_vec3 my_lambert(rt_vec3 albedo, rt_vec3 normal, rt_vec3 to_light,
                                  rt_vec3 intensity)
 {
@@ -62,6 +71,9 @@ int main(void)
     const rt_sphere sphere = {{9, 9, 9}, 1, {{0.5f, 0.25f, 1}, false}};
     const rt_sphere mirror = {{9, 9, 9}, 1, {{0, 0, 0}, true}};
     const rt_box box = {{1, 1, 1}, {2, 2, 2}, {{1, 1, 1}, false}};
+    const rt_vec3 corners[3] = {{1, -1, -1}, {1, 1, -1}, {-1, 1, -1}};
+    const int face[3] = {0, 1, 2};
+    const rt_mesh mesh = {corners, face, 3, 1, {{1, 1, 1}, false}};
     const rt_light light = {{0, 0, 9}, {1, 1, 1}};
     rt_scene scene;
     rt_camera camera;
@@ -75,6 +87,8 @@ int main(void)
     scene.sphere_count = 1;
     scene.boxes = &box;
     scene.box_count = 1;
+    scene.meshes = &mesh;
+    scene.mesh_count = 1;
     scene.lights = &light;
     scene.light_count = 1;
     options.samples = 1;
@@ -94,7 +108,7 @@ int main(void)
     image.samples = 0;
     if (rt_render(&scene, &camera, &options, &image) != RT_OK)
         return 3;
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < 6; i++)
         if (asked[i] == 0)
             return 4 + i;
     return 0;

@@ -1,5 +1,5 @@
 /* Random scenes, made to be awkward: does rt_render draw, with a tree and with 4, 8 and 16
- * lanes, the bits that the plain loops of chapters 1 to 15 draw? Any compiler will do:
+ * lanes, the bits that the plain loops of chapters 1 to 17 draw? Any compiler will do:
  *
  *     cc -std=c99 -O2 -fno-math-errno -ffp-contract=off -o lanes tests/fuzz/lanes.c -lm
  *     ./lanes SECONDS [SEED]      0 seconds: only the scene of this seed
@@ -14,13 +14,24 @@
 
 /* The scene, one at a time, and all else that its picture depends on. */
 enum { SHAPES = 120, LIGHTS = 3, WIDEST = 19, HIGHEST = 9, PIXELS = WIDEST * HIGHEST };
+enum { MESHES = 20, FACES = 30, CORNERS = 60, OWN = 20, ALL = 2 * SHAPES + MESHES + OWN };
 static rt_sphere spheres[SHAPES];
 static rt_box boxes[SHAPES];
 static rt_light lights[LIGHTS];
 static rt_lamp lamps[LIGHTS];
+static rt_vec3 positions[CORNERS];
+static int indices[MESHES][3 * FACES];
+static rt_mesh meshes[MESHES];
+static rt_sphere own_balls[OWN]; /* of the shapes of one's own */
+static rt_custom_shape own[OWN];
 static rt_surface sphere_surfaces[SHAPES], box_surfaces[SHAPES];
-static rt_scene scene = {
-    .spheres = spheres, .boxes = boxes, .lights = lights, .lamps = lamps};
+static rt_surface mesh_surfaces[MESHES], own_surfaces[OWN];
+static rt_scene scene = {.spheres = spheres,
+                         .boxes = boxes,
+                         .lights = lights,
+                         .lamps = lamps,
+                         .meshes = meshes,
+                         .custom_shapes = own};
 static rt_camera camera;
 static rt_options options = {.threads = 1};
 static int width, height, first_sample;
@@ -135,6 +146,72 @@ static void add_shapes(void)
     }
 }
 
+/* Chapters 16 and 17: no meshes and own shapes, a few, or many. Each mesh has a relation to the
+ * one before it, too; it is closed, or any triangles. */
+static rt_material any_material(void)
+{
+    const float red = below(4) > 0 ? rt_random(&rng) : (float)below(2);
+    const bool mirror = below(4) == 0;
+    const rt_material material = {{red, 0.7f * red, below(5) > 0 ? red : 0}, mirror};
+    return material;
+}
+
+static bool hit_own_ball(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
+{
+    const rt_sphere *sphere = (const rt_sphere *)data;
+    if (!rt_hit_sphere(sphere, ray, t_max, hit))
+        return false;
+    hit->normal = rt_sub(hit->point, sphere->center);
+    return true;
+}
+
+static void add_meshes(void)
+{
+    static const int tetrahedron[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
+    const int most = below(3) > 0 ? 3 : MESHES;
+    scene.mesh_count = below(3) > 0 ? below(most + 1) : 0;
+    scene.custom_shape_count = below(3) > 0 ? below(most + 1) : 0;
+    for (int i = 0; i < CORNERS; i++) {
+        const rt_vec3 p = rt_add(middle, offset());
+        positions[i] = below(4) > 0 || i == 0 ? p : positions[below(i)];
+        positions[i].y = below(9) > 0 ? positions[i].y : middle.y;
+    }
+    for (int i = 0; i < scene.mesh_count; i++) {
+        rt_mesh *m = &meshes[i];
+        const int faces = 1 + below(below(4) > 0 ? 6 : FACES), copies = below(6);
+        const bool closed = below(2) == 0;
+        const int at = below(CORNERS - 3);
+        const float half = size();
+        const rt_vec3 p = positions[at];
+        for (int k = 0; k < 4 && closed; k++)
+            positions[at + k] =
+                rt_add(p, rt_scale(rt_vec(k < 2 ? 1 : -1, k % 2 ? -1 : 1, k % 3 ? -1 : 1),
+                                   half));
+        for (int k = 0; k < 3 * FACES; k++)
+            indices[i][k] = closed && k < 12 ? at + tetrahedron[k] : below(CORNERS);
+        for (int k = 3; k < 3 * FACES && copies == 0; k++)
+            indices[i][k] = indices[i][k - 3];
+        m->positions = positions;
+        m->indices = indices[i];
+        m->position_count = CORNERS;
+        m->triangle_count = closed ? 4 : faces;
+        m->material = any_material();
+    }
+    for (int i = 0; i < scene.custom_shape_count; i++) {
+        rt_sphere *ball = &own_balls[i];
+        const rt_vec3 p = rt_add(middle, offset());
+        ball->center = below(3) > 0 ? p : positions[below(CORNERS)];
+        ball->radius = size();
+        if (i > 0 && below(6) == 0)
+            *ball = own_balls[i - 1];
+        own[i].min = rt_sub(ball->center, all(ball->radius));
+        own[i].max = rt_add(ball->center, all(ball->radius));
+        own[i].material = any_material();
+        own[i].hit = hit_own_ball;
+        own[i].data = ball;
+    }
+}
+
 /* A place for a light or the camera: in, on or near a shape, or anywhere. */
 static rt_vec3 place(void)
 {
@@ -148,6 +225,8 @@ static rt_vec3 place(void)
     } else if (what < 7 && scene.box_count > 0) {
         const rt_box *b = &boxes[below(scene.box_count)];
         p = rt__min(b->max, rt__max(b->min, rt_add(b->min, offset())));
+    } else if (scene.mesh_count > 0 && below(2) == 0) {
+        p = positions[below(CORNERS)];
     }
     p.x = below(9) > 0 ? p.x : nudge(p.x);
     return p;
@@ -203,6 +282,10 @@ static void add_part_two(void)
         sphere_surfaces[i] = surface();
         box_surfaces[i] = surface();
     }
+    for (int i = 0; i < MESHES; i++)
+        mesh_surfaces[i] = surface();
+    for (int i = 0; i < OWN; i++)
+        own_surfaces[i] = surface();
     if (below(4) > 0)
         scene.lamp_count = below(3) > 0 ? 1 : 1 + below(LIGHTS);
     for (int i = 0; i < LIGHTS; i++) {
@@ -244,6 +327,9 @@ static void make_scene(uint32_t seed)
     middle = rt_scale(direction(), away);
     scene.sphere_count = scene.box_count = 0;
     add_shapes();
+    if (below(6) == 0)
+        scene.sphere_count = scene.box_count = 0;
+    add_meshes();
     scene.background = all((float)below(2) * 0.5f);
     scene.light_count = below(4) > 0 ? 1 : below(LIGHTS + 1);
     for (int i = 0; i < LIGHTS; i++) {
@@ -303,10 +389,15 @@ static rt_vec3 plain_pixel(const void *context, float x, float y, rt_rng *number
                : rt_radiance(&scene, &ray, options.bounces, numbers);
 }
 
+/* Of the four kinds of shapes. */
+static rt_surface *const surfaces_of[4] = {sphere_surfaces, box_surfaces, mesh_surfaces,
+                                           own_surfaces};
+
 /* With 0 lanes: the plain loop. One lane gets a tree, packets make one for themselves. */
 static uint64_t draw(int lanes, const rt_bvh *bvh, rt_vec3 *pixels, rt_guide *guides)
 {
-    static rt_surface surfaces[2 * SHAPES];
+    static rt_surface surfaces[ALL];
+    rt_surface *behind = surfaces;
     rt_image image = {.width = width,
                       .height = height,
                       .pixels = pixels,
@@ -316,9 +407,14 @@ static uint64_t draw(int lanes, const rt_bvh *bvh, rt_vec3 *pixels, rt_guide *gu
                       .count = pixel_count};
     memset(pixels, 0, sizeof *pixels * PIXELS);
     memset(guides, 0, sizeof *guides * PIXELS);
-    memcpy(surfaces, sphere_surfaces, sizeof *surfaces * (size_t)scene.sphere_count);
-    memcpy(surfaces + scene.sphere_count, box_surfaces,
-           sizeof *surfaces * (size_t)scene.box_count);
+    for (int k = 0; k < 4; k++) {
+        const int count = k == 0   ? scene.sphere_count
+                          : k == 1 ? scene.box_count
+                          : k == 2 ? scene.mesh_count
+                                   : scene.custom_shape_count;
+        memcpy(behind, surfaces_of[k], sizeof *surfaces * (size_t)count);
+        behind += count;
+    }
     scene.surfaces = with_surfaces ? surfaces : NULL;
     options.lanes = lanes;
     scene.bvh = lanes == 1 ? bvh : NULL;
@@ -372,7 +468,7 @@ static void put_back(void *array, size_t one, int i, int count, const void *kept
  * need. */
 static void reduce(void *array, size_t one, rt_surface *surfaces, int *count, int lanes)
 {
-    char kept[sizeof(rt_box) + sizeof(rt_lamp)];
+    char kept[sizeof(rt_box) + sizeof(rt_lamp) + sizeof(rt_custom_shape)];
     rt_surface kept_surface;
     for (int i = *count - 1; i >= 0; i--) {
         take_out(array, one, i, *count, kept);
@@ -406,11 +502,12 @@ static void reduce_more(int lanes)
     with_guides = false;
     if (wrong_lanes() != lanes)
         with_guides = guides;
-    for (int i = 0; with_surfaces && i < 2 * SHAPES; i++) {
-        rt_surface *s = i < SHAPES ? &sphere_surfaces[i] : &box_surfaces[i - SHAPES];
-        const int number = i < SHAPES ? i : i - SHAPES;
-        if (number >= (i < SHAPES ? scene.sphere_count : scene.box_count))
+    const int counts[4] = {scene.sphere_count, scene.box_count, scene.mesh_count,
+                           scene.custom_shape_count};
+    for (int i = 0; with_surfaces && i < 4 * SHAPES; i++) {
+        if (i % SHAPES >= counts[i / SHAPES])
             continue;
+        rt_surface *s = &surfaces_of[i / SHAPES][i % SHAPES];
         for (int k = 0; k < 5; k++) {
             const rt_surface kept = *s;
             s->eta = k == 0 ? 0 : kept.eta;
@@ -422,6 +519,9 @@ static void reduce_more(int lanes)
                 *s = kept;
         }
     }
+    for (int i = 0; i < scene.mesh_count; i++)
+        reduce((void *)(uintptr_t)meshes[i].indices, 3 * sizeof **indices, NULL,
+               &meshes[i].triangle_count, lanes);
     while (options.bounces > 0 && options.bounces < 100) {
         options.bounces--;
         if (wrong_lanes() != lanes) {
@@ -454,12 +554,30 @@ static void show_scene(int lanes)
     for (const rt_box *b = boxes; b < boxes + scene.box_count; b++)
         printf("    {" V ", " V ", {" V ", %d}},\n", XYZ(b->min), XYZ(b->max),
                XYZ(b->material.albedo), b->material.mirror);
-    printf("};\nconst rt_light lights[] = {\n");
+    printf("};\nconst rt_vec3 positions[] = {\n");
+    for (int i = 0; scene.mesh_count > 0 && i < CORNERS; i++)
+        printf("    " V ",\n", XYZ(positions[i]));
+    printf("};\n/* meshes: material, corners */\n");
+    for (const rt_mesh *m = meshes; m < meshes + scene.mesh_count; m++) {
+        printf("/* {" V ", %d}:", XYZ(m->material.albedo), m->material.mirror);
+        for (int k = 0; k < 3 * m->triangle_count; k++)
+            printf(" %d%s", m->indices[k], k % 3 == 2 ? "," : "");
+        printf(" */\n");
+    }
+    printf("/* own shapes, balls of this centre and radius */\n");
+    for (const rt_custom_shape *c = own; c < own + scene.custom_shape_count; c++) {
+        const rt_sphere *s = (const rt_sphere *)c->data;
+        printf("/* {" V ", %.8e}, {" V ", %d} */\n", XYZ(s->center), (double)s->radius,
+               XYZ(c->material.albedo), c->material.mirror);
+    }
+    printf("const rt_light lights[] = {\n");
     for (const rt_light *l = lights; l < lights + scene.light_count; l++)
         printf("    {" V ", " V "},\n", XYZ(l->position), XYZ(l->intensity));
     printf("};\nconst rt_surface surfaces[] = {\n");
     show_surfaces(sphere_surfaces, scene.sphere_count);
     show_surfaces(box_surfaces, scene.box_count);
+    show_surfaces(mesh_surfaces, scene.mesh_count);
+    show_surfaces(own_surfaces, scene.custom_shape_count);
     printf("};\nconst rt_lamp lamps[] = {\n");
     for (const rt_lamp *l = lamps; l < lamps + scene.lamp_count; l++)
         printf("    {" V ", %.8ef, " V ", " V ", " V "},\n", XYZ(l->center),
@@ -505,6 +623,8 @@ int main(int argc, char **argv)
             found++;
             reduce(spheres, sizeof *spheres, sphere_surfaces, &scene.sphere_count, lanes);
             reduce(boxes, sizeof *boxes, box_surfaces, &scene.box_count, lanes);
+            reduce(meshes, sizeof *meshes, mesh_surfaces, &scene.mesh_count, lanes);
+            reduce(own, sizeof *own, own_surfaces, &scene.custom_shape_count, lanes);
             reduce(lights, sizeof *lights, NULL, &scene.light_count, lanes);
             reduce(lamps, sizeof *lamps, NULL, &scene.lamp_count, lanes);
             reduce_more(lanes);

@@ -1,5 +1,6 @@
-/* libFuzzer: the bytes are a whole small scene and the options. rt_render refuses it, or makes
- * a picture without NaN, infinity or negative values. */
+/* libFuzzer: the bytes are a whole small scene, with meshes and what a function of one's own
+ * says, and the options. rt_render refuses it, or makes a picture without NaN, infinity or
+ * negative values. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,10 +14,22 @@ typedef struct input {
     rt_box boxes[2];
     rt_light lights[2];
     rt_camera camera;
-    rt_vec3 background;
+    rt_vec3 background, corners[5], own[2], answer[2];
+    float answer_t;
+    int8_t indices[9], mesh_counts[4], positions;
     int8_t counts[3], width, height, samples, bounces, threads;
     uint8_t mirrors;
 } input;
+
+/* Whatever the bytes say. */
+static bool say(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
+{
+    const input *in = data;
+    hit->t = in->answer_t > 0.0f ? in->answer_t : t_max * 0.5f;
+    hit->point = in->answer_t > 1.0f ? rt_at(ray, hit->t) : in->answer[0];
+    hit->normal = in->answer[1];
+    return in->answer[1].x < 1e3f || ray->direction.x > 0.0f;
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -46,6 +59,29 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     scene.box_count = in.counts[1] % 3;
     scene.lights = in.lights;
     scene.light_count = in.counts[2] % 3;
+    static int indices[9]; /* -1 and one too many among them */
+    rt_mesh meshes[2];
+    rt_custom_shape shape;
+    for (int i = 0; i < 9; i++)
+        indices[i] = in.indices[i] % 7 == 0 ? in.indices[i] : (in.indices[i] & 127) % 5;
+    memset(meshes, 0, sizeof meshes);
+    memset(&shape, 0, sizeof shape);
+    for (int i = 0; i < 2; i++) {
+        meshes[i].positions = in.corners;
+        meshes[i].position_count = in.positions % 6;
+        meshes[i].indices = indices + 3 * i;
+        meshes[i].triangle_count = in.mesh_counts[i] % 3;
+        meshes[i].material = in.spheres[i].material;
+    }
+    scene.meshes = meshes;
+    scene.mesh_count = in.mesh_counts[2] % 3;
+    shape.min = in.own[0];
+    shape.max = in.own[1];
+    shape.material = in.spheres[2].material;
+    shape.hit = say;
+    shape.data = &in;
+    scene.custom_shapes = &shape;
+    scene.custom_shape_count = in.mesh_counts[3] % 2;
     scene.background = in.background;
     options.samples = in.samples % 3;
     options.bounces = in.bounces;

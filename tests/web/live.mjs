@@ -359,7 +359,7 @@ tests['chapter 10: d and g change the finished picture, and back'] = async () =>
 tests['part two: its pictures, on keys and to choose'] = async () => {
     const page = await open('demo15');
     await done(page, true);
-    for (const [stage, demo] of [[8, 'demo11'], [9, 'demo12'], [10, 'demo13'], [11, 'demo14'], [13, 'demo16'], [14, 'demo17']]) {
+    for (const [stage, demo] of [[8, 'demo11'], [9, 'demo12'], [10, 'demo13'], [13, 'demo16'], [14, 'demo17'], [11, 'demo14']]) {
         await page.click(`.stages label:nth-of-type(${stage})`);
         await become(page, await nativeHash(page, demo, '--samples', '64'), demo);
     }
@@ -407,8 +407,22 @@ tests['part two: the path tells of glass, gloss and lamps'] = async () => {
     assert.equal(await page.$$eval('.legend span', list => list.filter(span => !span.hidden).length), 8);
 };
 
+tests['a teapot is taken with all its triangles, and they are told'] = async () => {
+    const page = await open('demo17');
+    await done(page, true);
+    const first = await hash(page), [x, y] = await place(page, 380, 240);
+    await page.mouse.click(x, y);
+    await page.waitForFunction(() => /the teapot, triangle \d+, u 0\.\d+, v 0\.\d+/.test(document.querySelector('.live .words').textContent));
+    await page.evaluate(() => { document.querySelector('.live').live.drafts.length = 0; });
+    await anew(page, () => drag(page, [380, 290], [-20, 10], 20, 60)); // the pedestal
+    assert.ok(await page.evaluate(() => document.querySelector('.live').live.drafts.length) > 0, 'drafts on the way');
+    assert.notEqual(await hash(page), first);
+    await button(page, 'all as at first');
+    await become(page, first, 'as at first');
+};
+
 tests['what the keys can move is what the stage has'] = async () => {
-    for (const [demo, things] of [['demo01', 2], ['demo02', 3], ['demo03', 4], ['demo06', 5], ['demo11', 6]]) {
+    for (const [demo, things] of [['demo01', 2], ['demo02', 3], ['demo03', 4], ['demo06', 5], ['demo11', 6], ['demo16', 6], ['demo17', 7]]) {
         const page = await open(demo);
         assert.equal(await page.$$eval('.live option', list => list.length), things, demo);
     }
