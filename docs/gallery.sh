@@ -24,12 +24,12 @@ stage() { # NAME: the picture of its chapter, from 11 on
 render() { # NAME SUBMISSION OPTIONS
     grep -q RT_IMPLEMENTATION "$2" && static=-DRT_STATIC || static= # program.a has another
     case $3 in
-    edges) show=show_edges options="256 256 --samples 1" ;; # a wall, its rays along edges
-    *) show=show options="240 180 --samples 16 $3" ;;
+    edges) show=show_edges with="256 256 --samples 1" ;; # a wall, its rays along edges
+    *) show=show with="240 180 --samples 16 $3" ;;
     esac
     $cc $flags $static $openmp $(stage "$1") "-DSUBMISSION=\"$2\"" -o "$work/$1" tests/classroom/$show.c \
         "$build/program.a" $libs &&
-        "$work/$1" --no-window --quiet --out "$work/$1.png" $options
+        "$work/$1" --no-window --quiet --out "$work/$1.png" $with
 }
 
 red() { # NAME FILE: which test of its chapter goes red on it, the first
@@ -37,7 +37,7 @@ red() { # NAME FILE: which test of its chapter goes red on it, the first
     test=$(basename "$(ls tests/"$test"_*.c)" .c)
     $cc -std=c99 -O1 -ffp-contract=off -w -I. -include "$2" -o "$work/$1.test" "tests/$test.c" \
         $(pkg-config --cflags --libs cmocka libcjson) -lm || return
-    timeout 60 "$work/$1.test" 2>&1 |
+    timeout 100 "$work/$1.test" 2>&1 |
         sed -n "s/^\[  FAILED  \] \(test_[a-z0-9_]*\).*/\`\1\` in \`tests\/$test.c\`/p" | head -1
 }
 
@@ -70,7 +70,7 @@ for chapter in $(ls docs/mistakes | sed -n 's/^\(1[1-7]\)-.*/\1/p' | uniq); do
 done
 for file in docs/mistakes/*.c; do
     one "$file" &
-    [ "$(jobs -p | wc -l)" -lt 2 ] || wait
+    [ -z "$other" ] && other=$! || { wait; other=; } # two at a time
 done
 wait
 for file in docs/mistakes/*.c; do

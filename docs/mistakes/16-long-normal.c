@@ -1,7 +1,7 @@
 /* A normal as long as its triangle is large
  *
- * Symptom: the belly, where triangles are large, is too bright, and what has small ones, lid, spout
- *          and foot, is black; rings of light and dark show how the triangles grow
+ * Symptom: the teapot seems to be of steel: bright where triangles are large, on shoulder and lid,
+ *          and black where they are small, at knob, handle, spout and foot
  * Cause:   (B - A) x (C - A) was taken for the normal; its length is twice the area of the triangle
  * Cure:    divide it by its length
  * Options:
