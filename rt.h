@@ -2464,6 +2464,12 @@ static inline rt_dvec3 rt__sheared(const rt__shear *shear, rt_vec3 corner)
     return rt_dvec(p.x - shear->x * p.z, p.y - shear->y * p.z, p.z);
 }
 
+/* Are all three above 0, or all below? */
+static inline bool rt__beside(double a, double b, double c)
+{
+    return (a > 0.0 && b > 0.0 && c > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0);
+}
+
 /* The t at which the ray meets the triangle A, B, C, or 0; and in *weights how much of
  * each corner is in P, times any number.
  *
@@ -2485,6 +2491,10 @@ static inline rt_dvec3 rt__sheared(const rt__shear *shear, rt_vec3 corner)
  * holes, too, but a ray next to an edge would often get the wrong neighbour; hence
  * double.
  *
+ * Seen almost from its edge, a triangle is almost a line, and then rounding makes w 0 for
+ * points far out on that line, too. So (0,0) must also be between the corners in x and in
+ * y. That opens no hole, for what is in the triangle is.
+ *
  * Method: S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT
  * 2(1), 2013. */
 static inline double rt__meet_corners(const rt__shear *shear, const rt__corners *corners,
@@ -2500,6 +2510,8 @@ static inline double rt__meet_corners(const rt__shear *shear, const rt__corners 
         return 0.0;
     const double sum = w_a + w_b + w_c;
     if (!(sum != 0.0)) /* seen from the edge, or no area */
+        return 0.0;
+    if (rt__beside(a.x, b.x, c.x) || rt__beside(a.y, b.y, c.y))
         return 0.0;
     const double t = (w_a * a.z + w_b * b.z + w_c * c.z) * shear->z / sum;
     if (!(t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max))
@@ -4370,6 +4382,8 @@ static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh
     if (status != RT_OK)
         return status;
     const size_t n = (size_t)count + 1, branches = (size_t)rt__most_nodes(count) + 1;
+    if (n > SIZE_MAX / 512) /* meshes may share arrays: more than fits 32 bits */
+        return RT_NO_MEMORY;
     rt__builder b;
     b.scene = scene;
     b.bvh = bvh;
@@ -6355,12 +6369,13 @@ typedef struct rt__probe {
 
 /* Not all rays are fit: the squares of short and long directions are no good floats. And
  * the sums and products of those that are must not overflow, unless they are almost
- * parallel to an axis. */
+ * parallel to an axis. Those stay in a box by its margin of 1e-15, which rt__inverse
+ * makes 1e22, so no t may be as large: 3e16 / 1e-5 is not. */
 RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray *ray)
 {
     const rt_vec3 o = ray->origin, u = ray->direction;
     if (!rt__within(o, -1e16f, 1e16f) || !rt__within(u, -1e10f, 1e10f) ||
-        !(rt_dot(u, u) >= 1e-20f))
+        !(rt_dot(u, u) >= 1e-10f))
         return false;
     p->ray = *ray;
     p->inverse = rt_vec(rt__inverse(u.x), rt__inverse(u.y), rt__inverse(u.z));

@@ -115,7 +115,8 @@ static const struct aiScene *import(const char *path, char *why, size_t size)
             scene, aiProcess_RemoveComponent | aiProcess_Triangulate |
                        aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);
     if (!scene) {
-        snprintf(why, size, "%s", aiGetErrorString());
+        const char *said = aiGetErrorString();
+        snprintf(why, size, "%s", strstr(said, "bad_alloc") ? "not enough memory" : said);
         for (char *c = why; *c; c++) /* one line */
             if ((unsigned char)*c < 32)
                 *c = ' ';
@@ -282,8 +283,12 @@ bool load_mesh(const char *who, const char *path, rt_mesh *mesh)
     }
     if (file)
         fclose(file);
-    if (why)
-        fprintf(stderr, "%s: cannot read '%s' as a mesh: %s\n", who, path, why);
+    if (why) {
+        fprintf(stderr, "%s: cannot read '", who);
+        for (const char *c = path; *c; c++) /* one line, whatever it is called */
+            putc((unsigned char)*c < 32 ? '?' : *c, stderr);
+        fprintf(stderr, "' as a mesh: %s\n", why);
+    }
     return !why;
 }
 

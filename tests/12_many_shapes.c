@@ -754,6 +754,37 @@ static void expect_refused(const rt_scene *scene, rt_status status)
     assert_memory_equal(&bvh, &empty, sizeof bvh);
 }
 
+/* In the very plane of flat boxes, a ray so short that t is beyond 1e22. */
+static void test_far_along_a_short_ray(void **state)
+{
+    (void)state;
+    rt_box boxes[9];
+    memset(boxes, 0, sizeof boxes);
+    for (int i = 0; i < 9; i++) {
+        boxes[i].min = rt_vec(1e14f + 1e13f * (float)i, 0, -1e14f);
+        boxes[i].max = rt_vec(2e14f, 0, 1e14f);
+    }
+    rt_scene scene;
+    memset(&scene, 0, sizeof scene);
+    scene.boxes = boxes;
+    scene.box_count = 9;
+    rt_bvh bvh;
+    assert_int_equal(rt_build_bvh(&scene, &bvh), RT_OK);
+    for (int power = -12; power <= 2; power++) {
+        const rt_ray ray = {{0, 0, 0}, {powf(10, (float)power), 0, 0}};
+        rt_hit loop, tree;
+        memset(&loop, 0, sizeof loop);
+        memset(&tree, 0, sizeof tree);
+        scene.bvh = NULL;
+        assert_true(rt_intersect(&scene, &ray, &loop));
+        scene.bvh = &bvh;
+        assert_true(rt_intersect(&scene, &ray, &tree));
+        assert_true(tree.shape == loop.shape && tree.t == loop.t);
+        assert_true(rt_occluded(&scene, &ray, FLT_MAX));
+    }
+    rt_free_bvh(&bvh);
+}
+
 static void test_bad_scenes_make_no_tree(void **state)
 {
     (void)state;
@@ -907,6 +938,7 @@ int main(void)
         cmocka_unit_test(test_a_thousand_times_the_shapes_a_few_times_the_work),
         cmocka_unit_test(test_a_hundred_thousand_shapes_soon),
         cmocka_unit_test(test_giants_do_not_spoil_it),
+        cmocka_unit_test(test_far_along_a_short_ray),
         cmocka_unit_test(test_bad_scenes_make_no_tree),
         cmocka_unit_test(test_a_tree_of_another_scene_is_refused),
         cmocka_unit_test(test_free_twice),
