@@ -155,8 +155,8 @@ static inline void free_scene(scene_file *file)
     free(file->spheres);
     free(file->boxes);
     for (int i = 0; i < file->scene.mesh_count; i++) {
-        free((void *)(uintptr_t)file->meshes[i].positions);
-        free((void *)(uintptr_t)file->meshes[i].indices);
+        free((void *)file->meshes[i].positions);
+        free((void *)file->meshes[i].indices);
     }
     free(file->meshes);
     memset(file, 0, sizeof *file);
