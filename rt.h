@@ -1342,7 +1342,9 @@ typedef struct rt_bvh {
     rt_bvh_row *rows;
     int node_count, row_count;
     int sphere_count, box_count, triangle_count, custom_shape_count;
-    void *memory;                /* in which nodes and rows lie */
+    int mesh_count;        /* and ... */
+    int *triangles_before; /* ... each mesh and after the last, or NULL: few meshes */
+    void *memory;          /* in which nodes and rows lie */
     rt__search_function *search; /* NULL, or that of the last section */
     struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
 } rt_bvh;
@@ -2654,6 +2656,17 @@ static inline rt__other rt__other_of(const rt_scene *scene, int number)
 {
     rt__other p;
     p.part = number - scene->sphere_count - scene->box_count;
+    if (scene->bvh && scene->bvh->triangles_before) { /* the last with <= part */
+        const int *before = scene->bvh->triangles_before;
+        int end = scene->bvh->mesh_count + 1;
+        for (p.mesh = 0; p.mesh + 1 < end;) {
+            const int half = p.mesh + (end - p.mesh) / 2;
+            p.mesh = before[half] <= p.part ? half : p.mesh;
+            end = before[half] <= p.part ? end : half;
+        }
+        p.part -= before[p.mesh];
+        return p;
+    }
     for (p.mesh = 0; p.mesh < scene->mesh_count; p.mesh++) {
         if (p.part < scene->meshes[p.mesh].triangle_count)
             break;
@@ -3700,6 +3713,18 @@ static inline bool rt__good_box(rt_vec3 low, rt_vec3 high, const rt_material *ma
            low.y <= high.y && low.z <= high.z && rt__within(material->albedo, 0.0f, 1.0f);
 }
 
+/* Has each mesh as many triangles as when the tree was built? */
+static inline bool rt__has_meshes(const rt_bvh *bvh, const rt_scene *scene)
+{
+    const int *before = bvh->triangles_before;
+    if (bvh->mesh_count != scene->mesh_count)
+        return false;
+    for (int i = 0; before && i < scene->mesh_count; i++)
+        if (before[i + 1] - before[i] != scene->meshes[i].triangle_count)
+            return false;
+    return true;
+}
+
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
 {
     int nowhere = 0;
@@ -3749,7 +3774,7 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index)
         return RT_BAD_BACKGROUND;
     const rt_bvh *bvh = scene->bvh;
     if (bvh && (!bvh->nodes || bvh->sphere_count != scene->sphere_count ||
-                bvh->box_count != scene->box_count ||
+                bvh->box_count != scene->box_count || !rt__has_meshes(bvh, scene) ||
                 bvh->triangle_count != rt__triangle_count(scene) ||
                 bvh->custom_shape_count != scene->custom_shape_count))
         return RT_BAD_BVH;
@@ -4301,6 +4326,7 @@ RTDEF void rt_free_bvh(rt_bvh *bvh)
     if (!bvh)
         return;
     RT_FREE(bvh->memory);
+    RT_FREE(bvh->triangles_before);
     memset(bvh, 0, sizeof *bvh);
 }
 
@@ -4368,6 +4394,22 @@ static inline bool rt__build(const rt__builder *b, int count, int threads)
     return true;
 }
 
+/* How many triangles come before those of each mesh: a loop over a few is as quick. */
+static inline bool rt__count_before(rt_bvh *bvh, const rt_scene *scene)
+{
+    const int count = bvh->mesh_count = scene->mesh_count;
+    if (count <= 8)
+        return true;
+    int *before = (int *)RT_MALLOC(((size_t)count + 1) * sizeof *before);
+    bvh->triangles_before = before;
+    if (!before)
+        return false;
+    before[0] = 0;
+    for (int i = 0; i < count; i++)
+        before[i + 1] = before[i] + scene->meshes[i].triangle_count;
+    return true;
+}
+
 static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh *bvh)
 {
     if (!scene || !bvh)
@@ -4381,11 +4423,16 @@ static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh
     const rt_status status = rt_check_scene(&shapes, NULL);
     if (status != RT_OK)
         return status;
+    if (!rt__count_before(bvh, scene)) {
+        rt_free_bvh(bvh);
+        return RT_NO_MEMORY;
+    }
+    shapes.bvh = bvh;
     const size_t n = (size_t)count + 1, branches = (size_t)rt__most_nodes(count) + 1;
     if (n > SIZE_MAX / 512) /* meshes may share arrays: more than fits 32 bits */
         return RT_NO_MEMORY;
     rt__builder b;
-    b.scene = scene;
+    b.scene = &shapes;
     b.bvh = bvh;
     b.entries = (rt__entry *)RT_MALLOC(n * sizeof *b.entries);
     b.branches = (rt__branch *)RT_MALLOC(branches * sizeof *b.branches);
@@ -5667,7 +5714,6 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     indexed = *scene;
     if (scene->bvh) {
         bvh = *scene->bvh;
-        bvh.memory = NULL; /* not ours */
         indexed.bvh = &bvh;
     } else if (lanes > 1 || shapes > RT__FEW_ALONE) {
         status = rt__build_bvh(scene, rt_thread_count(job.options.threads), &bvh);
@@ -5683,7 +5729,8 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
     else
 #endif
         status = rt__run(&job);
-    rt_free_bvh(&bvh);
+    if (!scene->bvh)
+        rt_free_bvh(&bvh);
     return status;
 }
 
