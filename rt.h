@@ -2493,9 +2493,9 @@ static inline bool rt__beside(double a, double b, double c)
  * holes, too, but a ray next to an edge would often get the wrong neighbour; hence
  * double.
  *
- * Seen almost from its edge, a triangle is almost a line, and then rounding makes w 0 for
- * points far out on that line, too. So (0,0) must also be between the corners in x and in
- * y. That opens no hole, for what is in the triangle is.
+ * Seen almost from its edge, a triangle is almost a line, and for points far out on that
+ * line w is 0 by rounding, too. So where a w is 0, (0,0) must also be between the corners
+ * in x and in y. That opens no hole, for what is in the triangle is.
  *
  * Method: S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT
  * 2(1), 2013. */
@@ -2513,7 +2513,8 @@ static inline double rt__meet_corners(const rt__shear *shear, const rt__corners 
     const double sum = w_a + w_b + w_c;
     if (!(sum != 0.0)) /* seen from the edge, or no area */
         return 0.0;
-    if (rt__beside(a.x, b.x, c.x) || rt__beside(a.y, b.y, c.y))
+    if ((w_a == 0.0 || w_b == 0.0 || w_c == 0.0) &&
+        (rt__beside(a.x, b.x, c.x) || rt__beside(a.y, b.y, c.y)))
         return 0.0;
     const double t = (w_a * a.z + w_b * b.z + w_c * c.z) * shear->z / sum;
     if (!(t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max))
@@ -3896,13 +3897,15 @@ static inline rt__bounds rt__other_bounds(const rt_scene *scene, rt__other p)
 }
 
 /* A box, and a little more: its coordinates are rounded, and a ray in the very plane of a
- * face must enter it (for rt__inverse makes 0 of 0/0). */
+ * face must enter it (for rt__inverse makes 0 of 0/0). As much along each axis: where
+ * a triangle is seen, is a sum of all three, and so is its rounding. */
 static inline rt__bounds rt__with_margin(rt__bounds b)
 {
     const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
                                  rt__max(b.min, rt_scale(b.min, -1.0f)));
-    const rt_vec3 margin =
-        rt_add(rt_scale(size, 2.0f * FLT_EPSILON), rt_vec(1e-15f, 1e-15f, 1e-15f));
+    float most = size.x > size.y ? size.x : size.y;
+    most = (most > size.z ? most : size.z) * (2.0f * FLT_EPSILON) + 1e-15f;
+    const rt_vec3 margin = rt_vec(most, most, most);
     b.min = rt_sub(b.min, margin);
     b.max = rt_add(b.max, margin);
     return b;
