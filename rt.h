@@ -1798,7 +1798,7 @@ RT__INLINE float rt__doubt(float differ, float noise, int samples)
  * Part two: what else a surface, a lamp and a camera can be
  *
  * Part one knows matt surfaces and mirrors, lamps that are points, and a camera that is a
- * pinhole. Chapters 11 to 15 bring the rest. None of it changes anything above: a scene
+ * pinhole. Chapters 11 to 17 bring the rest. None of it changes anything above: a scene
  * has a table of surfaces or it has none, and then all of them are as in part one. The
  * loop that puts the chapters together, rt_radiance_mis, stands at the end.
  *
@@ -2425,13 +2425,14 @@ static inline rt_vec3 rt__blend(const rt__corners *corners, rt_dvec3 weights)
 }
 
 #ifndef rt_hit_triangle
-/* The world as the ray sees it: C is the origin, and the ray is the axis z. The axis
- * along which u is longest becomes z; then a shear, which moves every point sideways in
- * proportion to its z, straightens the ray:
+/* The world as the ray sees it: its start is the origin, and the ray is the axis z. The
+ * axis along which u is longest becomes z; then a shear, which moves every point sideways
+ * in proportion to its z, straightens the ray:
  *
- *     x = p_x - (u_x / u_z) p_z,     y = p_y - (u_y / u_z) p_z     of p = A - C.
+ *     x = p_x - (u_x / u_z) p_z,     y = p_y - (u_y / u_z) p_z
  *
- * Now the ray meets what is at x = y = 0. */
+ * of p, the way to the point from where the ray starts. Now the ray meets what is at
+ * x = y = 0. */
 typedef struct rt__shear {
     rt_vec3 origin;
     int axis;       /* the one that becomes z: 0, 1, 2 stand for x, y, z */
@@ -2489,9 +2490,10 @@ static inline bool rt__beside(double a, double b, double c)
  * edge or corner. For each corner is sheared once, to the same numbers in every triangle
  * that it belongs to. Of the common edge both compute the same two products, so one has w
  * where the other has -w. Rounded products are in the order of the exact ones or equal,
- * so w has the right sign or is 0. And 0 counts as inside. In float that would do against
- * holes, too, but a ray next to an edge would often get the wrong neighbour; hence
- * double.
+ * so w has the right sign or is 0. And 0 counts as inside. (A compiler that contracts
+ * a*b-c*d rounds only one of the products: one more reason for -ffp-contract=off.) In
+ * float that would do against holes, too, but a ray next to an edge would often get the
+ * wrong neighbour; hence double.
  *
  * Seen almost from its edge, a triangle is almost a line, and then rounding makes w 0 for
  * points far out on that line, too. So (0,0) must also be between the corners in x and in
