@@ -104,9 +104,11 @@
  *                 1e5 work in a room of size 100, and a sphere is hit from 1e12 radii
  *                 away: no wrong hit or miss in 1.8 million rays, t within one rounding.
  *                 Boxes in float, exact on planes, edges and corners; no ray leaves a
- *                 closed box, or a room of six walls, of 1e9 that were sent. A ray that
- *                 leaves a surface starts 8 roundings beside it (rt_leave): no self-hit
- *                 in 3 million bounces. NaN and infinity in a ray or a shape are a miss,
+ *                 closed box, or a room of six walls, of 1e9 that were sent. Triangles
+ *                 in double: no ray gets through between two of them, none of 19 600
+ *                 aimed at edges and corners met a wrong one, and no path of 81 million
+ *                 bounces left a closed mesh. A ray that leaves a surface starts 8
+ *                 roundings beside it (rt_leave): no self-hit in 3 million bounces. NaN and infinity in a ray or a shape are a miss,
  *                 never a crash. Sine and cosine are our own, so that libm cannot change
  *                 a path. A valid scene raises no floating-point exception (invalid,
  *                 divide, overflow), so that you may trap yours; clang needs
