@@ -108,13 +108,13 @@
  *                 in double: no ray gets through between two of them, none of 19 600
  *                 aimed at edges and corners met a wrong one, and no path of 81 million
  *                 bounces left a closed mesh. A ray that leaves a surface starts 8
- *                 roundings beside it (rt_leave): no self-hit in 3 million bounces. NaN and infinity in a ray or a shape are a miss,
- *                 never a crash. Sine and cosine are our own, so that libm cannot change
- *                 a path. A valid scene raises no floating-point exception (invalid,
- *                 divide, overflow), so that you may trap yours; clang needs
- *                 -ftrapping-math for that. Packets do raise them, but rt_render runs
- *                 them with traps off and the flags put back. How all this is tested:
- *                 docs/correctness.md.
+ *                 roundings beside it (rt_leave): no self-hit in 3 million bounces. NaN
+ *                 and infinity in a ray or a shape are a miss, never a crash. Sine and
+ *                 cosine are our own, so that libm cannot change a path. A valid scene
+ *                 raises no floating-point exception (invalid, divide, overflow), so
+ *                 that you may trap yours; clang needs -ftrapping-math for that.
+ *                 Packets do raise them, but rt_render runs them with traps off and the
+ *                 flags put back. How all this is tested: docs/correctness.md.
  * IN C++          Include it outside of any namespace, for it includes C headers.
  * ERRORS          rt_render, rt_render_pixels, rt_denoise, rt_build_bvh and
  *                 rt_check_... can fail.
