@@ -104,15 +104,17 @@
  *                 1e5 work in a room of size 100, and a sphere is hit from 1e12 radii
  *                 away: no wrong hit or miss in 1.8 million rays, t within one rounding.
  *                 Boxes in float, exact on planes, edges and corners; no ray leaves a
- *                 closed box, or a room of six walls, of 1e9 that were sent. A ray that
- *                 leaves a surface starts 8 roundings beside it (rt_leave): no self-hit
- *                 in 3 million bounces. NaN and infinity in a ray or a shape are a miss,
- *                 never a crash. Sine and cosine are our own, so that libm cannot change
- *                 a path. A valid scene raises no floating-point exception (invalid,
- *                 divide, overflow), so that you may trap yours; clang needs
- *                 -ftrapping-math for that. Packets do raise them, but rt_render runs
- *                 them with traps off and the flags put back. How all this is tested:
- *                 docs/correctness.md.
+ *                 closed box, or a room of six walls, of 1e9 that were sent. Triangles
+ *                 in double: no ray gets through between two of them, none of 19 600
+ *                 aimed at edges and corners met a wrong one, and no path of 81 million
+ *                 bounces left a closed mesh. A ray that leaves a surface starts 8
+ *                 roundings beside it (rt_leave): no self-hit in 3 million bounces. NaN
+ *                 and infinity in a ray or a shape are a miss, never a crash. Sine and
+ *                 cosine are our own, so that libm cannot change a path. A valid scene
+ *                 raises no floating-point exception (invalid, divide, overflow), so
+ *                 that you may trap yours; clang needs -ftrapping-math for that.
+ *                 Packets do raise them, but rt_render runs them with traps off and the
+ *                 flags put back. How all this is tested: docs/correctness.md.
  * IN C++          Include it outside of any namespace, for it includes C headers.
  * ERRORS          rt_render, rt_render_pixels, rt_denoise, rt_build_bvh and
  *                 rt_check_... can fail.
@@ -1798,7 +1800,7 @@ RT__INLINE float rt__doubt(float differ, float noise, int samples)
  * Part two: what else a surface, a lamp and a camera can be
  *
  * Part one knows matt surfaces and mirrors, lamps that are points, and a camera that is a
- * pinhole. Chapters 11 to 15 bring the rest. None of it changes anything above: a scene
+ * pinhole. Chapters 11 to 17 bring the rest. None of it changes anything above: a scene
  * has a table of surfaces or it has none, and then all of them are as in part one. The
  * loop that puts the chapters together, rt_radiance_mis, stands at the end.
  *
@@ -2425,13 +2427,14 @@ static inline rt_vec3 rt__blend(const rt__corners *corners, rt_dvec3 weights)
 }
 
 #ifndef rt_hit_triangle
-/* The world as the ray sees it: C is the origin, and the ray is the axis z. The axis
- * along which u is longest becomes z; then a shear, which moves every point sideways in
- * proportion to its z, straightens the ray:
+/* The world as the ray sees it: its start is the origin, and the ray is the axis z. The
+ * axis along which u is longest becomes z; then a shear, which moves every point sideways
+ * in proportion to its z, straightens the ray:
  *
- *     x = p_x - (u_x / u_z) p_z,     y = p_y - (u_y / u_z) p_z     of p = A - C.
+ *     x = p_x - (u_x / u_z) p_z,     y = p_y - (u_y / u_z) p_z
  *
- * Now the ray meets what is at x = y = 0. */
+ * of p, the way to the point from where the ray starts. Now the ray meets what is at
+ * x = y = 0. */
 typedef struct rt__shear {
     rt_vec3 origin;
     int axis;       /* the one that becomes z: 0, 1, 2 stand for x, y, z */
@@ -2489,9 +2492,10 @@ static inline bool rt__beside(double a, double b, double c)
  * edge or corner. For each corner is sheared once, to the same numbers in every triangle
  * that it belongs to. Of the common edge both compute the same two products, so one has w
  * where the other has -w. Rounded products are in the order of the exact ones or equal,
- * so w has the right sign or is 0. And 0 counts as inside. In float that would do against
- * holes, too, but a ray next to an edge would often get the wrong neighbour; hence
- * double.
+ * so w has the right sign or is 0. And 0 counts as inside. (A compiler that contracts
+ * a*b-c*d rounds only one of the products: one more reason for -ffp-contract=off.) In
+ * float that would do against holes, too, but a ray next to an edge would often get the
+ * wrong neighbour; hence double.
  *
  * Seen almost from its edge, a triangle is almost a line, and for points far out on that
  * line w is 0 by rounding, too. So where a w is 0, (0,0) must also be between the corners

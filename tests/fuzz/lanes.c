@@ -268,7 +268,7 @@ static rt_surface surface(void)
     return s;
 }
 
-/* What chapters 11 to 15 add, or nothing. */
+/* What chapters 11 to 17 add, or nothing. */
 static void add_part_two(void)
 {
     scene.lamp_count = 0;
