@@ -92,8 +92,8 @@
  *                 and they meet only when it ends; rt_build_bvh does so for more than
  *                 65536 shapes, as many as OpenMP offers. After that, in a child that
  *                 fork() makes, GNU's OpenMP hangs as soon as it needs more than one
- *                 thread: give options.threads = 1 there, or fork before the first
- *                 picture.
+ *                 thread: there, give options.threads = 1 and let rt_render build
+ *                 the tree, or fork before the first picture.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
  *                 of threads or lanes, nor on how samples are split over calls (but see
  *                 rt_render on more than 4096 in one call). Pass -ffp-contract=off for
