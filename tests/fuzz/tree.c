@@ -120,6 +120,8 @@ static void make_scene(void)
         if (i > 0 && below(3) > 0) /* small triangles */
             positions[i] = rt_add(positions[below(i)],
                                   rt_vec(length(), lattice ? 0 : length(), -length()));
+        if (!(rt_length(positions[i]) < 1e15f)) /* which rt_check_scene would refuse */
+            positions[i] = point();
         if (below(10) == 0)
             positions[i].y = 0;
     }
