@@ -294,7 +294,8 @@ static void test_progress_is_called_often_for_slow_pixels(void **state)
     options.progress = count_calls;
     options.user = &calls;
     assert_int_equal(rt_render_pixels(slow_pixel, NULL, &options, &image), RT_OK);
-    assert_in_range(calls, 5, 1000); /* every 15 ms, also on a busy machine; not for each */
+    assert_in_range(calls, 5,
+                    1000); /* every 15 ms, also on a busy machine; not for each */
     free(image.pixels);
 }
 
