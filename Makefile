@@ -87,7 +87,7 @@ WHOLE    = $(filter 12% 13% 14% 15% 17% 18% 19%,$*)
 $(BUILD)/rt.o: rt.h
 	@.ci/deps found '$(CC)' openmp
 	@mkdir -p $(BUILD)
-	$(CC) $(FLAGS) $(OPENMP) -DRT_IMPLEMENTATION -c -o $@ -x c $<
+	printf '#include "rt.h"\n' | $(CC) $(FLAGS) $(OPENMP) -DRT_IMPLEMENTATION -c -o $@ -x c -
 
 $(BUILD)/tests/%: tests/%.c $(BUILD)/rt.o $(wildcard tests/*.h) $(HEADERS) $(wildcard demos/demo[0-9]*.c)
 	@.ci/deps found '$(CC)' cmocka libcjson

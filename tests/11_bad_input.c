@@ -1208,7 +1208,7 @@ static float two_data;
 
 static bool own_disc(const void *data, const rt_ray *ray, float t_max, rt_hit *hit_)
 {
-    const float t = (-3 - ray->origin.z) / ray->direction.z;
+    const float t = ray->direction.z == 0 ? 0 : (-3 - ray->origin.z) / ray->direction.z;
     (void)data;
     hit_->t = t;
     hit_->point = rt_at(ray, t);
