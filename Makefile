@@ -78,8 +78,10 @@ $(PROGRAM): $(BUILD)/%.o: demos/%.c $(HEADERS)
 
 # ---------------------------------------------------------------------------- the tests
 
+USERS = tests/compile/run # what users' builds may do
+
 test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)/%) ## run the tests, seconds
-	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) tests/compile/run
+	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) $(USERS)
 
 # Most tests are linked with rt.o. These look inside of rt.h, or give it memory of their own.
 WHOLE    = $(filter 12% 13% 14% 15% 17% 18% 19%,$*)
