@@ -867,11 +867,17 @@ static inline bool rt__cut(rt__slabs *slabs, int axis, float low, float high,
     return t_in <= t_out && slabs->t_in <= slabs->t_out; /* NaN: false */
 }
 
-/* Cut with all three slabs. A box is what they have in common, and so is the part of
- * the ray inside it: it begins at the largest of the three ways in and ends at the
- * smallest of the three ways out. If it ends before it begins, the ray passes by.
- * Returns the first t with 0 < t < t_max on the surface - the way in, or from inside
- * the way out - or 0. */
+/* Cut with all three slabs. A box is what they have in common: the ray is inside from
+ * its last way in to its first way out. On each axis it crosses the two planes at
+ *
+ *     t0 = (min - C) / u,     t1 = (max - C) / u,
+ *
+ * and so, over x, y and z,
+ *
+ *     t_in = max of min(t0, t1),     t_out = min of max(t0, t1).
+ *
+ * If t_in > t_out, the ray passes by. Returns the first t with 0 < t < t_max on the
+ * surface: t_in or, from inside, t_out; else 0. */
 static inline float rt__cut_box(const rt_box *box, const rt_ray *ray, float t_max,
                                 rt__slabs *slabs)
 {
@@ -887,7 +893,7 @@ static inline float rt__cut_box(const rt_box *box, const rt_ray *ray, float t_ma
     return t > 0.0f && t < t_max && t < FLT_MAX ? t : 0.0f; /* FLT_MAX: no plane */
 }
 
-/* The first point of the box's surface on the ray with 0 < t < t_max.
+/* The first point of the box's surface on the ray with 0 < t < t_max: see above.
  *
  * The normal is that of the plane through which the ray comes or, from inside, goes; on
  * an edge or corner x goes before y, y before z. The box is closed: a ray in the plane
@@ -2047,11 +2053,11 @@ static inline float rt__cap(const rt_lamp *lamp, rt_vec3 point)
 }
 
 /* A point S of the lamp that P may see, from two uniform numbers r1, r2 in (0, 1), drawn
- * with the density below.
+ * with the density of rt_lamp_density.
  *
- * Of a ball it is the one in a direction of which each within the cone is as likely as
- * any other: 1 - cos is uniform in (0, 1 - cos a). On a parallelogram all points are
- * equally likely. */
+ * P sees a ball within a cone of half-angle a, see above. All directions of the cone are
+ * equally likely: 1 - cos is uniform in (0, 1 - cos a). S is where the direction first
+ * meets the ball. On a parallelogram all points are equally likely. */
 #ifndef rt_sample_lamp
 static inline rt_vec3 rt_sample_lamp(const rt_lamp *lamp, rt_vec3 point, float r1,
                                      float r2)
@@ -2078,9 +2084,9 @@ static inline rt_vec3 rt_sample_lamp(const rt_lamp *lamp, rt_vec3 point, float r
 /* The density, per steradian, with which rt_sample_lamp chooses this direction, of length
  * 1, from P; it must be one that meets the lamp. 0: never.
  *
- * Of a ball 1 / (2 pi (1 - cos a)). Of a parallelogram of area A, d^2 / (A |cos b|): a
- * square metre takes up less of the sphere of directions the farther away it is, and the
- * flatter it is seen, at the angle b. */
+ * Of a ball 1 / (2 pi (1 - cos a)) with sin a = R / d. Of a parallelogram of area A,
+ * d^2 / (A |cos b|): a square metre takes up less of the sphere of directions the farther
+ * away it is, and the flatter it is seen, at the angle b. */
 #ifndef rt_lamp_density
 static inline float rt_lamp_density(const rt_lamp *lamp, rt_vec3 point, rt_vec3 direction)
 {
@@ -2160,10 +2166,11 @@ static inline float rt__hidden(float cosine, float a2)
  * its share of the view. r1, r2 are uniform in (0, 1). It may point below the surface;
  * then the light goes nowhere.
  *
- * The surface is stretched by 1/a along N, so that the facets become a hemisphere; there
- * the wanted normal is halfway between the eye and a uniform direction of a cap. J.
- * Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG 2023, after
- * E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4), 2018. */
+ * The surface is stretched by 1/a (see above) along N, so that the facets become a
+ * hemisphere; there the wanted normal is halfway between the eye and a uniform direction
+ * of a cap. J. Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", HPG
+ * 2023, after E. Heitz, "Sampling the GGX distribution of visible normals", JCGT 7(4),
+ * 2018. */
 #ifndef rt_sample_gloss
 static inline rt_vec3 rt_sample_gloss(rt_vec3 normal, rt_vec3 to_eye, float shininess,
                                       float r1, float r2)

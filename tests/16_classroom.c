@@ -33,6 +33,14 @@ static void test_starters_compile(void **state)
             "$f || exit 1; done"),
         0);
     assert_string_equal(said, "");
+    /* where the comment of a routine points up, to a derivation, the starter has it, too */
+    assert_int_equal(run("cd starters && grep -q '<f,u>' my_hit_sphere.c && "
+                         "grep -q 't_in = max' my_hit_box.c && "
+                         "grep -q 'w_C = ' my_hit_triangle.c && for f in *.c; do "
+                         "! tr -s '\\n *' ' ' <$f | grep -qi 'see above' || "
+                         "test $(grep -c '^/[*]' $f) -ge 3 || echo $f; done"),
+                     0);
+    assert_string_equal(said, "");
     /* what a student has written is kept */
     write_text("starters/my_reflect.c", "mine");
     assert_int_equal(
