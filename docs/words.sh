@@ -1,8 +1,9 @@
 #!/bin/sh
 # Is each term of docs/words.md used where the table says that it is explained?
 #   docs/words.sh    name the terms that are not, and exit 1
-# To be run at the top of the repository. A term counts if it stands in the prose of the section
-# that its link names, or anywhere in the chapter; code, links and symbols of one letter do not.
+# To be run at the top of the repository. A term must occur in the prose of the chapter that its
+# link names or, if the link names a section, there. Code and links do not count. Symbols of one
+# letter are not looked for.
 program='
 function plain(line) { # without marks, inline code and the targets of links
     gsub(/<!--[^>]*-->/, "", line)
@@ -11,8 +12,8 @@ function plain(line) { # without marks, inline code and the targets of links
     gsub(/[][*_]/, "", line)
     return tolower(line)
 }
-function anchor(heading) { # as pandoc and GitHub make it
-    heading = plain(heading)
+function anchor(heading) { # as GitHub makes it
+    heading = tolower(heading)
     sub(/^#+ */, "", heading)
     gsub(/[^a-z0-9 -]/, "", heading)
     gsub(/ /, "-", heading)
