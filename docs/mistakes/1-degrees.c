@@ -1,7 +1,7 @@
 /* Degrees for radians
  *
- * Symptom: far too wide: the room is a small thing at the end of a tunnel; or it is
- *          upside down, or gone
+ * Symptom: far too wide: the room is a small thing at the end of a tunnel; or the picture
+ *          is upside down, or empty
  * Cause:   tan() wants radians, and got 23 for 23 degrees
  * Cure:    degrees * pi / 180, in one place
  * Options:

@@ -1,8 +1,8 @@
 /* The far side of the sphere
  *
- * Symptom: nearly black: the ball, the mirror and the walls are gone, and the cube
- *          alone is left
- * Cause:   + in place of -: of the two roots the larger one was taken
+ * Symptom: nearly black: the ball, the mirror and the walls are gone, and only the cube
+ *          is left
+ * Cause:   + in place of -: of the two roots, the larger one was taken
  * Cure:    first the smaller root, (-b - sqrt(D)) / a; the larger one only if that
  *          is not positive
  * Options:

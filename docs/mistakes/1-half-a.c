@@ -2,8 +2,8 @@
  *
  * Symptom: everything is where it should be, but shadows are missing or in the
  *          wrong place
- * Cause:   (-b - sqrt(D)) / 2 * a divides by 2 and *multiplies* by a; that is right
- *          while a = 1, and shadow rays are longer
+ * Cause:   (-b - sqrt(D)) / 2 * a divides by 2 and *multiplies* by a. That is right while
+ *          a = 1, but shadow rays are longer
  * Cure:    brackets: / (2 * a); and test with directions of any length
  * Options:
  */

@@ -1,7 +1,7 @@
 /* An unsigned difference
  *
- * Symptom: three quarters of the picture have no shape, only grain; one
- *          quarter is as it should be, at another place
+ * Symptom: three quarters of the picture have no shape, only grain; the last quarter is
+ *          right, but in another place
  * Cause:   x - width / 2 in unsigned numbers: left of the middle it is not negative
  *          but four billion
  * Cure:    signed numbers, or float, before the subtraction

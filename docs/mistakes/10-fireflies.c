@@ -1,8 +1,9 @@
 /* Blots from fireflies
  *
- * Symptom: no grain, but soft stains of colour, and the shade under the ball is gone
- * Cause:   only the guides decide who is asked, and light that differs by far more than noise explains is mixed in
- * Cure:    a difference counts by the variance of the two pixels
+ * Symptom: no grain, but soft stains of colour, and the shadow under the ball is gone
+ * Cause:   the guides alone decide which neighbours count, so light that differs by far
+ *          more than noise explains is mixed in
+ * Cure:    weigh a difference in light by the variance of the two pixels
  * Options: --denoise
  */
 #define RT_IMPLEMENTATION

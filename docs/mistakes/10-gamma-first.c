@@ -1,8 +1,9 @@
 /* Gamma first
  *
- * Symptom: clean, but too dark where the light comes by way of others, and the more so the fewer samples there are
- * Cause:   the picture was encoded before it was denoised: the mean of roots is less than the root of the mean
- * Cure:    linear light up to the very end; encode what is finished
+ * Symptom: clean, but indirect light is too dark; the fewer the samples, the darker
+ * Cause:   the picture was encoded before it was denoised, and the mean of roots is less
+ *          than the root of the mean
+ * Cure:    keep linear light up to the very end, and encode what is finished
  * Options: --denoise
  */
 #define RT_IMPLEMENTATION

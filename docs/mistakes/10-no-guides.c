@@ -1,8 +1,9 @@
 /* Without guides
  *
- * Symptom: everything without noise, and the corners, the ball and the cube blurred: their light runs over their edges
- * Cause:   the filter asks all neighbours alike, whatever they see
- * Cure:    who sees another surface, by its normal and point, counts little
+ * Symptom: no noise anywhere, but the corners, the ball and the cube are blurred: their
+ *          light runs over their edges
+ * Cause:   the filter gives all neighbours the same weight, whatever they see
+ * Cure:    a pixel that sees another surface, by its normal and point, counts little
  * Options: --denoise
  */
 #define RT_IMPLEMENTATION

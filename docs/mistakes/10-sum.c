@@ -1,7 +1,8 @@
 /* The sum, and not the light of others
  *
  * Symptom: shadows are washed out at their edges, and so are highlights
- * Cause:   the filter smooths all light, and takes shadows of the lamp, which have no noise, for noise
+ * Cause:   the filter smooths all light. It takes the shadows of the lamp, which have no
+ *          noise, for noise
  * Cure:    keep the direct light apart, and add it afterwards
  * Options: --denoise
  */

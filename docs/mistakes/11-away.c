@@ -1,7 +1,7 @@
 /* Bent away from the normal
  *
- * Symptom: a black ring in the ball, with the room upright and small in the middle of
- *          it, and mirrored all around
+ * Symptom: a black ring in the ball, with the room upright and small in its middle, and
+ *          mirrored all around it
  * Cause:   sin t = eta sin i: Snell's law the wrong way round
  * Cure:    sin i = eta sin t; into glass a ray is bent *towards* the normal
  * Options:

@@ -1,10 +1,10 @@
 /* All of it goes through
  *
  * Symptom: no reflections: the top of the ball has lost the sheen of the ceiling, its
- *          right edge is plain red, and one looks straight through the top and the
- *          left side of the cube, which should be pale with reflections
- * Cause:   every ray that can be refracted is; glass reflects, too, and at a flat angle
- *          nearly all
+ *          right edge is plain red, and the top and the left side of the cube, which
+ *          should be pale with reflections, are clear
+ * Cause:   every ray that can be refracted is refracted; but glass also reflects, and at
+ *          a flat angle it reflects nearly everything
  * Cure:    Fresnel's F, and a coin
  * Options:
  */

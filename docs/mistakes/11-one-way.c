@@ -1,9 +1,9 @@
 /* 1.5 both ways
  *
- * Symptom: the picture in the ball stands upright in the place of upside down, in a
- *          ring of floor, and a dark patch hangs in it; the cube hardly differs
- * Cause:   1.5 is the index of glass over that of air; on the way out it is air over
- *          glass
+ * Symptom: the picture in the ball is upright and not upside down, in a ring of floor,
+ *          and a dark patch hangs in it; the cube hardly differs
+ * Cause:   1.5 is the index of glass over that of air; on the way out, it must be air
+ *          over glass
  * Cure:    1 / 1.5 for a ray that comes from inside
  * Options:
  */

@@ -3,9 +3,9 @@
  * Symptom: hard to see: reflections inside the glass are too weak just before the
  *          critical angle; the cube and the edge of the ball are a little off. A test
  *          sees it
- * Cause:   (1 - cos)^5 wants the angle in air; from inside it got that in the glass, and
- *          F jumps from 0.04 to 1 at the critical angle
- * Cure:    the larger of the two angles, or Fresnel's own formula, which needs no such care
+ * Cause:   (1 - cos)^5 needs the angle in air. From inside it got the angle in the glass,
+ *          and F jumps from 0.04 to 1 at the critical angle
+ * Cure:    the larger of the two angles; or Fresnel's own formula, which takes either
  * Options:
  */
 #define rt_fresnel my_fresnel

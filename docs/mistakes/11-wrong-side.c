@@ -1,11 +1,11 @@
 /* Never gets in
  *
- * Symptom: dark, speckled glass: what one sees is reflection; what should come from
+ * Symptom: dark, speckled glass: all that you see is reflection; what should come from
  *          behind arrives late or never
- * Cause:   every ray starts on the side of the normal, which is right for a reflection;
- *          the ray that is refracted goes to the other side, and meets the surface that it
- *          has just left, again and again
- * Cure:    a little beside the surface on the side to which the ray *goes* (rt_leave)
+ * Cause:   every ray starts on the side of the normal, which is right for a reflection.
+ *          But a refracted ray goes to the other side, and meets the surface that it has
+ *          just left, again and again
+ * Cure:    start a little off the surface, on the side to which the ray *goes* (rt_leave)
  * Options:
  */
 #define rt_leave my_leave

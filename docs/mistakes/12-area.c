@@ -1,9 +1,9 @@
 /* Area for solid angle
  *
- * Symptom: burnt to white; near the lamp it is only too bright, or even too dark, as
- *          distance counts no more
- * Cause:   1 / area of the lamp is a density per square unit; the sum is over directions,
- *          per steradian. d^2 / cos is missing
+ * Symptom: burnt to white; near the lamp it is only too bright, or even too dark, because
+ *          the distance no longer counts
+ * Cause:   1 / area of the lamp is a density per square unit, but the sum is over
+ *          directions, per steradian: d^2 / cos is missing
  * Cure:    1 / (2 pi (1 - cos a)), or d^2 / (A cos b)
  * Options:
  */

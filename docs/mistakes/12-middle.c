@@ -1,8 +1,8 @@
 /* Always the middle of the lamp
  *
- * Symptom: the shadows have hard edges, as in chapter 4; all else is right
- * Cause:   every surface aims at the same point; that is the lamp of chapter 4
- * Cure:    a random direction in the cone, drawn with the density that one divides by
+ * Symptom: the shadows have hard edges, as in chapter 4; everything else is right
+ * Cause:   every surface aims at the same point, so the lamp is that of chapter 4
+ * Cure:    a random direction in the cone, drawn with the density by which it is divided
  * Options:
  */
 #define rt_sample_lamp my_sample_lamp

@@ -1,9 +1,9 @@
 /* Points all over the ball
  *
- * Symptom: hard to see: the edges of shadows are soft, but of another shape. Tests
+ * Symptom: hard to see: the edges of shadows are soft, but of another shape. The tests
  *          see it
- * Cause:   the point is drawn evenly on the whole ball, its back included, but the density
- *          is that of the cone
+ * Cause:   the point is drawn uniformly on the whole ball, its back included, but the
+ *          density is that of the cone
  * Cure:    draw what you divide by: 1 - cos uniform in (0, 1 - cos a)
  * Options:
  */

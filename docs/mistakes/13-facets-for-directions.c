@@ -1,9 +1,9 @@
 /* The density of the facets for that of the directions
  *
- * Symptom: metal is far too dark, as if it reflected a quarter; only the highlight of the lamp,
- *          which is aimed at, is as bright as it should be
- * Cause:   the density is that with which a facet is chosen. The direction that it reflects to
- *          turns by twice the angle, so its density is smaller, by 4 <h,eye>
+ * Symptom: metal is far too dark, as if it reflected only a quarter of the light; the
+ *          highlight of the lamp, which is aimed at, is as bright as it should be
+ * Cause:   the density is the one with which a facet is chosen. The reflected direction
+ *          turns by twice the angle, so its density is smaller, by the factor 4 <h,eye>
  * Cure:    density of the facet / (4 <h,eye>)
  * Options:
  */

@@ -1,9 +1,9 @@
 /* A hemisphere of facets
  *
- * Symptom: metal is dark and full of grains; only the highlight of the lamp, which is aimed at,
+ * Symptom: metal is dark and grainy; only the highlight of the lamp, which is aimed at,
  *          is as it should be
- * Cause:   the normal was chosen on the stretched surface, and used without going back: facets that face
- *          all ways alike, whatever the shininess
+ * Cause:   the normal was chosen on the stretched surface, and used without going back.
+ *          So the facets face all ways with the same probability, whatever the shininess
  * Cure:    back to the real surface: x and y of the normal times a, then length 1
  * Options:
  */

@@ -2,7 +2,7 @@
  *
  * Symptom: metal and lacquer are too bright towards their rims, and grainy: seen at a flat angle
  *          they send more light than they get
- * Cause:   D without G: facets that stand behind others are counted as seen, and as lit
+ * Cause:   D without G: facets that are hidden behind others count as seen and as lit
  * Cure:    D G(eye) G(light) / (4 <N,eye>)
  * Options:
  */

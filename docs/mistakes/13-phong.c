@@ -1,8 +1,9 @@
 /* Phong's lobe
  *
  * Symptom: metal gets darker towards its rim, where real things get brighter
- * Cause:   no slip, but a lobe that loses light: a part of it is below the surface, and at 60
- *          degrees the cosine <N,L> has halved the rest, whatever the exponent
+ * Cause:   not an error of the program: this lobe loses light. Part of it is below the
+ *          surface, and at 60 degrees the cosine <N,L> has halved the rest, whatever the
+ *          exponent
  * Cure:    facets
  * Options:
  */

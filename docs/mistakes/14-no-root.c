@@ -1,8 +1,8 @@
 /* Too often the middle of the lens
  *
- * Symptom: hard to see: what is blurred has a sharp core in a wide veil
- * Cause:   radius times r2: half of the points are in the inner quarter of the area
- * Cure:    radius times sqrt(r2): within s lies the part s^2 of the area
+ * Symptom: hard to see: what is out of focus has a sharp core in a wide veil
+ * Cause:   the radius times r2 puts half of the points into the inner quarter of the area
+ * Cure:    the radius times sqrt(r2): within s lies the part s^2 of the area
  * Options:
  */
 #define rt_lens_ray my_lens_ray

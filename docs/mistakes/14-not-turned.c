@@ -1,7 +1,7 @@
 /* The ray not turned
  *
- * Symptom: all is blurred by as much as the lens is large, and nothing is sharp, however the focus is
- *          set: sharp would be what is infinitely far away
+ * Symptom: everything is blurred by the size of the lens, and nothing is sharp, wherever
+ *          the focus is set. Only something infinitely far away would be sharp
  * Cause:   the ray begins at a point of the lens, but keeps the direction of the pinhole's ray
  * Cure:    towards the point in which the pinhole's ray meets the sharp plane
  * Options:

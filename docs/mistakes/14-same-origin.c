@@ -1,6 +1,6 @@
 /* The direction turned, the origin not
  *
- * Symptom: sharp at no distance, and the farther away the more it is blurred
+ * Symptom: nothing is sharp at any distance, and far things are blurred most
  * Cause:   the ray points away from a point of the lens, but still begins at the pinhole
  * Cure:    move the origin, too
  * Options:

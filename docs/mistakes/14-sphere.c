@@ -1,8 +1,9 @@
 /* Sharp on a sphere
  *
- * Symptom: hard to see: sharp in the middle, but at the sides what is nearer is sharp
- * Cause:   the focus is taken along the ray, and not along the axis: what is sharp then lies on a
- *          sphere around the camera
+ * Symptom: hard to see: sharp in the middle, but towards the sides nearer things are
+ *          sharp instead
+ * Cause:   the focus is taken along the ray, and not along the axis, so the sharp points
+ *          lie on a sphere around the camera
  * Cure:    focus / <direction, forward> along the ray, of length 1
  * Options:
  */

@@ -1,9 +1,9 @@
 /* The normal into the pot
  *
  * Symptom: the teapot is black
- * Cause:   (C - A) x (B - A) points inward, as the corners go round counterclockwise, and was not
- *          turned to the side of the ray
- * Cure:    let the ray decide: the normal is on the side from which it comes
+ * Cause:   (C - A) x (B - A) points inward, because the corners go round
+ *          counterclockwise, and it was not turned to the side of the ray
+ * Cure:    let the ray decide: the normal is on the side from which the ray comes
  * Options:
  */
 #define rt_hit_triangle my_hit_triangle

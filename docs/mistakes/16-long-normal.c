@@ -1,7 +1,8 @@
 /* A normal as long as its triangle is large
  *
- * Symptom: the teapot seems to be of steel: bright where triangles are large, on shoulder and lid,
- *          and black where they are small, at knob, handle, spout and foot
+ * Symptom: the teapot seems to be made of steel: bright where the triangles are large, on
+ *          shoulder and lid, and black where they are small, on knob, handle, spout and
+ *          foot
  * Cause:   (B - A) x (C - A) was taken for the normal; its length is twice the area of the triangle
  * Cure:    divide it by its length
  * Options:

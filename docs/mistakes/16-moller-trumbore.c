@@ -1,11 +1,11 @@
 /* Möller and Trumbore, in float
  *
- * Symptom: in the room there is nothing to see; but where rays run along edges there are holes,
- *          one pixel large, through which one sees what is behind, here red
+ * Symptom: nothing to see in the room. But where rays run along edges there are holes,
+ *          one pixel large, through which you see what is behind, here red
  * Cause:   each triangle computes its edges from its own corner A, in float, and rounds
- *          differently from its neighbour: close to the edge between them each may say that
- *          the other one is meant
- * Cure:    both ask the same two products about the edge that they share
+ *          differently from its neighbour. Close to the edge between them, each may leave
+ *          the ray to the other
+ * Cure:    both use the same two products for the edge that they share
  * Options: edges
  */
 #define rt_hit_triangle my_hit_triangle

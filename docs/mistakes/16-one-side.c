@@ -1,8 +1,10 @@
 /* Only from one side
  *
- * Symptom: one looks through the front of the teapot, and sees the inside of its back, with grain
- * Cause:   only one sign of the three areas counts as a hit. So a triangle is there from one side
- *          only, and which one, depends on whether the ray goes up or down its longest axis
+ * Symptom: the front of the teapot is transparent: you see the inside of its back, with
+ *          grain
+ * Cause:   only one sign of the three areas counts as a hit. So a triangle can be hit
+ *          from one side only, and which side that is depends on whether the ray goes up
+ *          or down its longest axis
  * Cure:    all three at least 0, or all three at most 0
  * Options:
  */

@@ -1,9 +1,10 @@
 /* Nobody has the edges
  *
- * Symptom: in the room there is nothing to see; but a ray that goes exactly along an edge, or
- *          through a corner, gets through: here all edges of the right half, and many on the left
- * Cause:   w > 0 was asked in place of w >= 0, by both triangles
- * Cure:    what lies on the edge is inside, for both of them: better two hits than none
+ * Symptom: nothing to see in the room. But a ray that goes exactly along an edge, or
+ *          through a corner, gets through: here on all edges of the right half, and on
+ *          many of the left
+ * Cause:   both triangles test w > 0 in place of w >= 0
+ * Cure:    a point on the edge is inside both triangles: better two hits than none
  * Options: edges
  */
 #define rt_hit_triangle my_hit_triangle

@@ -1,7 +1,7 @@
 /* The last hit, not the nearest
  *
- * Symptom: what comes first in the list vanishes behind what comes last: the
- *          ball is gone, and the walls are nearly black but for the last one
+ * Symptom: what comes first in the list vanishes behind what comes last: the ball is
+ *          gone, and all walls but the last are nearly black
  * Cause:   the loop over the shapes keeps the last hit in place of the nearest
  * Cure:    keep a hit only if its t is smaller than the smallest so far
  * Options:

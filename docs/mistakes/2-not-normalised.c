@@ -1,8 +1,8 @@
 /* L not made a unit vector
  *
- * Symptom: burnt to white: the very picture of d for d squared, as the cosine
- *          times d, over d squared, is the same
- * Cause:   <N,L> with L = S - P, which is d long: the cosine times d
+ * Symptom: burnt to white, exactly like "d for d squared": a cosine that is d times too
+ *          large, divided by d squared, is the same
+ * Cause:   <N,L> with L = S - P, whose length is d, is the cosine times d
  * Cure:    divide L by its length first
  * Options:
  */

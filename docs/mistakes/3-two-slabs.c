@@ -1,7 +1,7 @@
 /* One slab forgotten
  *
  * Symptom: a bar through the room in place of the cube
- * Cause:   only x and y are cut: between their four planes there is no end
+ * Cause:   only x and y are cut, and the space between their four planes has no end
  * Cure:    all three axes
  * Options:
  */

@@ -1,6 +1,6 @@
 /* The wrong face of the box
  *
- * Symptom: the faces of the cube are cut into parts of another brightness
+ * Symptom: the faces of the cube are cut into parts of different brightness
  * Cause:   the normal is that of the axis on which the ray *leaves*
  * Cure:    the face is where the last of the three slabs is entered
  * Options:

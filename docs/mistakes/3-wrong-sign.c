@@ -1,6 +1,6 @@
 /* The normal into the box
  *
- * Symptom: the cube is dull, for it gets no light from the lamp; without indirect
+ * Symptom: the cube is dull, because it gets no light from the lamp; without indirect
  *          light it is black
  * Cause:   the sign of the normal is that of the direction
  * Cure:    against the direction: u > 0 gives -1

@@ -1,7 +1,7 @@
 /* No step off the surface
  *
- * Symptom: salt and pepper, and all a third darker: shadow acne. Only the
- *          cube, whose points are exact, is as bright as before
+ * Symptom: salt and pepper, and everything a third darker: shadow acne. Only the cube,
+ *          whose points are exact, is as bright as before
  * Cause:   the point is rounded, and half of the time it lies below its surface,
  *          which then shadows itself
  * Cure:    start a little beside the surface, on the side to which the ray goes

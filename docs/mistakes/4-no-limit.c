@@ -1,7 +1,7 @@
 /* A shadow ray without an end
  *
- * Symptom: a closed room is nearly all black
- * Cause:   what lies *behind* the lamp, the ceiling, counts as standing before it
+ * Symptom: a closed room is almost entirely black
+ * Cause:   the ceiling, which is *behind* the lamp, counts as standing in front of it
  * Cure:    only hits nearer than the lamp: t < 1 for a direction S - P
  * Options:
  */

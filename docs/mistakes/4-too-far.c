@@ -1,8 +1,8 @@
 /* Too large a step
  *
  * Symptom: dark lines along the edges of the room, and all shadows shifted
- * Cause:   from so far above the surface a point near an edge is in the next
- *          wall already, and the shadow is that of another point
+ * Cause:   so far above the surface, a point near an edge is already in the next wall,
+ *          and the shadow is that of another point
  * Cure:    as small as rounding allows: 1e-6 of the coordinates
  * Options: --bounces 0
  */

@@ -2,8 +2,8 @@
  *
  * Symptom: dark, with hard shadows; then the lamp is made brighter, and the ball
  *          burns out
- * Cause:   bytes in proportion to the light, shown on a screen that raises them to
- *          the power of 2.2
+ * Cause:   the bytes are in proportion to the light, but the screen raises them to the
+ *          power of 2.2
  * Cure:    the power 1/2.2 before the byte
  * Options:
  */

@@ -1,7 +1,7 @@
 /* Not divided by n
  *
- * Symptom: burnt out, nearly all of it white or in pure colours: the sum of 16
- *          samples in place of their mean
+ * Symptom: burnt out, nearly everything white or in pure colours: the sum of 16 samples
+ *          in place of their mean
  * Cause:   the division by the number of samples is missing
  * Cure:    sum / n
  * Options:

@@ -1,9 +1,9 @@
 /* Half a reflection
  *
  * Symptom: the mirror shows a shrunken, speckled image
- * Cause:   I - <I,N> N: the part along the normal is taken off once, so the ray
- *          runs along the surface
- * Cure:    twice: I - 2 <I,N> N
+ * Cause:   I - <I,N> N subtracts the part along the normal once, so the ray runs along
+ *          the surface
+ * Cure:    subtract it twice: I - 2 <I,N> N
  * Options:
  */
 #define rt_reflect my_reflect

@@ -2,7 +2,7 @@
  *
  * Symptom: smoother, greyer and darker: the bright grains are gone, and their
  *          light with them. The picture changes with the number of samples
- * Cause:   each sample was made a byte, and the bytes were averaged: the mean of
+ * Cause:   each sample was made a byte, and the bytes were averaged; but the mean of
  *          roots is not the root of the mean
  * Cure:    add up light, and encode once, at the end
  * Options:

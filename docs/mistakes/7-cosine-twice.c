@@ -1,9 +1,9 @@
 /* The cosine twice
  *
- * Symptom: indirect light is too weak: shadows, corners, and the ball from
- *          below are darker
- * Cause:   directions drawn by the cosine, and a factor <N,w> on top
- * Cure:    the density has the cosine already: it cancels
+ * Symptom: indirect light is too weak: shadows, corners, and the underside of the ball
+ *          are darker
+ * Cause:   directions drawn by the cosine, and a factor <N,w> as well
+ * Cure:    the density already has the cosine, so it cancels
  * Options:
  */
 #define rt_radiance my_radiance

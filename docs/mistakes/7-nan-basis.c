@@ -1,10 +1,9 @@
 /* N x a fixed vector
  *
- * Symptom: one side of the cube has no indirect light: too dark, and without
- *          grain. In other programs, black specks
- * Cause:   the cross product with (1,0,0) is zero where the normal is the
- *          same; divided by its length it is NaN, and a ray along NaN meets
- *          nothing
+ * Symptom: one side of the cube has no indirect light: it is too dark, and without grain.
+ *          In other programs there are black specks
+ * Cause:   the cross product with (1,0,0) is zero where the normal is (1,0,0) itself.
+ *          Divided by its length it is NaN, and a ray along NaN meets nothing
  * Cure:    a basis that works for every normal (rt_basis)
  * Options:
  */

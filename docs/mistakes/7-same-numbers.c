@@ -1,7 +1,7 @@
 /* The same numbers in every pixel
  *
- * Symptom: no grain but ghosts: edges of light that are not there, the same in all
- *          of the picture
+ * Symptom: no grain but ghosts: edges of light that are not there, the same in the whole
+ *          picture
  * Cause:   each pixel, or each thread, starts its generator with the same seed
  * Cure:    a seed made from pixel and sample
  * Options:

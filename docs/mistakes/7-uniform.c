@@ -1,10 +1,10 @@
 /* Uniform directions without the cosine
  *
- * Symptom: hard to see: corners and edges a little too dark, and what faces a
- *          bright floor or wall at a flat angle too bright. Two pictures with
- *          many samples show it, or the mean of the light
- * Cause:   directions uniform on the hemisphere, but the estimate leaves the cosine
- *          out, as if it were in their density
+ * Symptom: hard to see: corners and edges are a little too dark, and what faces a bright
+ *          floor or wall at a flat angle is too bright. Two pictures with many samples
+ *          show it, or the mean of the light
+ * Cause:   the directions are uniform on the hemisphere, but the estimate leaves out the
+ *          cosine, as if their density had it
  * Cure:    cosine-weighted directions; or uniform ones, and 2 <N,w> as a factor
  * Options:
  */
