@@ -12,11 +12,11 @@ function reason(error) {
         return error.message;
     const words = error.message; // each browser has its own
     if (/call stack|recursion/i.test(words))
-        return 'it crashed: the stack is full (a function that calls itself, without an end?)';
+        return 'it crashed: the stack is full (does a function call itself without end?)';
     if (/out of bounds/i.test(words))
-        return 'it crashed: it read or wrote outside of its memory';
+        return 'it crashed: it read or wrote outside its memory';
     if (/unreachable/i.test(words))
-        return 'it crashed: it came to where it must not be (NULL, abort, assert, no return)';
+        return 'it crashed: it reached a place that it must not reach (NULL, abort, assert, no return)';
     return `it crashed: ${words}`;
 }
 

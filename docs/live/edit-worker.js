@@ -73,7 +73,7 @@ const opening = (async () => {
     await llvm(null, {}, { fetchProgress: () => { } });
     postMessage({ ready: true });
     return true;
-})().catch(error => postMessage({ broken: `The compiler did not come: ${error.message}` }));
+})().catch(error => postMessage({ broken: `The compiler could not be loaded: ${error.message}` }));
 
 // ---- compiling ------------------------------------------------------------------------
 
@@ -199,7 +199,7 @@ async function start(wasm, stale) {
         }
         stop();
     }
-    throw new Error('the browser starts no worker');
+    throw new Error('the browser cannot start a worker');
 }
 
 // The verdict about one kind of input is printed; undefined if meanwhile there is a newer

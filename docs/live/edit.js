@@ -26,18 +26,18 @@ function begin(div) {
     const button = element('button', { type: 'button', textContent: 'Write it yourself, here' });
     note.setAttribute('role', 'status');
     if (location.protocol === 'file:') {
-        div.append(element('p', {}, 'To write it in this page, a server is needed: ',
+        div.append(element('p', {}, 'To write it on this page, you need a web server: ',
             element('code', { textContent: 'python3 -m http.server -d build/site' }), '.'));
         return;
     }
     if (!enough) {
-        div.append(element('p', {}, 'To write it in this page, a newer browser is needed.'));
+        div.append(element('p', {}, 'To write it on this page, you need a newer browser.'));
         return;
     }
     note.textContent = `fetches a C compiler once, ${MEGABYTES} MB`;
     button.addEventListener('click', async () => {
         button.disabled = true;
-        note.textContent = 'the editor comes ...';
+        note.textContent = 'loading the editor ...';
         try {
             await load();
             div.replaceChildren();
@@ -45,7 +45,7 @@ function begin(div) {
         } catch {
             script = undefined;
             button.disabled = false;
-            note.textContent = 'The editor did not come: is the server still there?';
+            note.textContent = 'The editor could not be loaded. Is the server still running?';
         }
     });
     div.append(element('p', {}, button, ' ', note));

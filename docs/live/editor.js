@@ -59,7 +59,7 @@ function heard(data) {
             end();
             listener({
                 broken: data.begun ? `does not compile: no end within ${LONGEST / 1000} seconds`
-                    : 'The judge does not answer: please try again.',
+                    : 'The judge does not answer. Please try again.',
             });
         }, LONGEST);
     listener(data);
@@ -110,7 +110,7 @@ self.rtEditor = (div, folder) => {
     status.setAttribute('role', 'status');
     label.hidden = routines.length < 2;
     div.append(element('p', { className: 'edit-tools' }, label,
-        button('compile and try', attempt), button('as at first', restore), save),
+        button('compile and try', attempt), button('start over', restore), save),
     room, status, said, verdict, output);
 
     function state() {
@@ -164,7 +164,7 @@ self.rtEditor = (div, folder) => {
         clearTimeout(timer);
         const name = mine();
         ask(folder, { code: code(), name }, data => answered(data, name));
-        status.textContent = ready ? 'compiling ...' : 'the compiler comes ...';
+        status.textContent = ready ? 'compiling ...' : 'loading the compiler ...';
         return true; // the key is used
     }
 
@@ -177,7 +177,7 @@ self.rtEditor = (div, folder) => {
 
     function answered(data, name) {
         if (data.loaded) {
-            status.textContent = `the compiler comes: ${(data.loaded / 1e6).toFixed(0)} of ` +
+            status.textContent = `loading the compiler: ${(data.loaded / 1e6).toFixed(0)} of ` +
                 `${MEGABYTES} MB ...`;
         } else if (data.ready || data.begun) {
             status.textContent = 'compiling ...';
@@ -196,7 +196,7 @@ self.rtEditor = (div, folder) => {
                 live?.dispatchEvent(new CustomEvent('mine-old'));
             const seconds = `compiled in ${(data.times.compile / 1000).toFixed(1)} s`;
             status.textContent = data.said ? `${name}: ${data.said}`
-                : data.judging ? `${seconds}, being asked ...` : seconds;
+                : data.judging ? `${seconds}, testing ...` : seconds;
             if (data.verdict)
                 judged(data);
         }
@@ -259,7 +259,7 @@ self.rtEditor = (div, folder) => {
     }
 
     live?.addEventListener('mine-failed', ({ detail }) => {
-        status.textContent += `. The picture by it: ${detail}`;
+        status.textContent += `. The picture: ${detail}`;
     });
     choice.addEventListener('change', () => show(choice.value));
     show(routine);

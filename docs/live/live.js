@@ -105,7 +105,7 @@ async function bring_to_life(root, name, encoded) {
         clearTimeout(w.alarm);
         w.owes = drawn_by === 'mine';
         if (w.owes)
-            w.alarm = setTimeout(() => give_up('no end after 3 s: stopped'), 3000);
+            w.alarm = setTimeout(() => give_up('stopped: it did not end within 3 s'), 3000);
     }
     function heard(w, all) {
         if (w.owes && !all)
@@ -427,7 +427,7 @@ async function bring_to_life(root, name, encoded) {
         } else if (KEYS[key] || '0123456789,.dlpr[]+-='.includes(key)) {
             ex.page_key(KEYS[key] ?? key.charCodeAt(0));
             if (key === 'r')
-                as_at_first();
+                reset();
             stale ||= key === 'd' || key === 'p';
             go();
         } else {
@@ -465,7 +465,7 @@ async function bring_to_life(root, name, encoded) {
         }
         show_controls();
     }
-    function as_at_first() {
+    function reset() {
         gamma_is = thing = 0;
         if (workers.length !== at_first && !alone)
             hire(at_first);
@@ -536,7 +536,7 @@ async function bring_to_life(root, name, encoded) {
     function build() {
         const still = [...root.querySelectorAll('img')].at(-1), image = still.cloneNode(), alt = still.alt;
         const picture = make('canvas', {class: 'picture', width: W, height: H, tabindex: 0, role: 'application',
-            'aria-label': `${alt}. Drag to move; Enter: the path of a pixel. Arrows, page up and down, digits, comma, point, plus, minus, b, r.`});
+            'aria-label': `${alt}. Drag to move things. Enter shows the path of a pixel. Other keys: arrows, page up and down, digits, comma, period, plus, minus, b, r.`});
         const before = make('canvas', {class: 'other', width: W, height: H, 'aria-hidden': 'true'});
         const stage = make('div', {class: 'stage'}, image, picture, before, make('span', {class: 'line', 'aria-hidden': 'true'}),
             make('span', {class: 'whose yours', text: t('yours')}), make('span', {class: 'whose right', text: t('right one')}));
@@ -548,7 +548,7 @@ async function bring_to_life(root, name, encoded) {
             make('span', {style: `--c: var(--kind-${kind})`, text: text_of_kind(kind)})));
         const part_two = () => [...legend.children].forEach((child, i) => { child.hidden = i >= 6 && ex.page_stage() <= 7; });
         const inspector = make('div', {class: 'inspector'}, make('div', {class: 'bar'}, where,
-            button('−', t('sample before'), () => look_at(at.x, at.y, Math.max(0, at.sample - 1))),
+            button('−', t('previous sample'), () => look_at(at.x, at.y, Math.max(0, at.sample - 1))),
             button('+', t('next sample'), () => look_at(at.x, at.y, at.sample + 1)),
             button('×', t('close'), close_path)), make('div', {class: 'plans'}, ...views), legend, said);
         const progress = make('progress', {max: 1, value: 0, 'aria-label': t('samples')}), status = make('div', {class: 'status'});
@@ -579,7 +579,7 @@ async function bring_to_life(root, name, encoded) {
             lanes: () => box('lanes', `4 ${t('rays at a time')}`, () => ex.page_lanes() > 1, () => { ex.page_key('p'.charCodeAt(0)); again(); }),
             workers: () => slider('workers', 'workers', 1, Math.min(8, navigator.hardwareConcurrency ?? 2), 1, () => workers.length, () => workers.length,
                 to => { hire(to); again(); }),
-            sampler: () => box('sampler', 'Sobol numbers', () => ex.page_sobol(), () => { ex.page_key('l'.charCodeAt(0)); go(); }),
+            sampler: () => box('sampler', 'Sobol points', () => ex.page_sobol(), () => { ex.page_key('l'.charCodeAt(0)); go(); }),
             denoise: () => box('denoise', 'without noise', () => ex.page_denoises(), () => { ex.page_key('d'.charCodeAt(0)); again(); }),
             exposure: () => slider('exposure', 'exposure', -4, 4, 0.5, () => ex.page_exposure(), () => ex.page_exposure().toFixed(1), set_exposure),
             stages: () => stages_of(STAGES),
@@ -621,7 +621,7 @@ async function bring_to_life(root, name, encoded) {
             button('+', t('nearer'), () => { ex.page_tune(thing, 1); go(); }), button('−', t('farther'), () => { ex.page_tune(thing, -1); go(); }));
         const tuned = make('output', {class: 'tuned'});
         const move = make('div', {class: 'bar'}, make('label', {}, t('move') + ' ', list), pad, tuned,
-            button(t('all as at first'), null, () => { ex.page_key('r'.charCodeAt(0)); as_at_first(); go(); }));
+            button(t('reset everything'), null, () => { ex.page_key('r'.charCodeAt(0)); reset(); go(); }));
         [...root.children].forEach(child => { child.hidden = true; child.classList.add('still'); });
         root.append(make('div', {class: 'panes'}, stage, inspector), progress, status, spoken,
             make('div', {class: 'bar dividing'}, make('label', {class: 'wide'}, compare, ' ', divider)), bar, chart.element, move);
@@ -666,7 +666,7 @@ async function bring_to_life(root, name, encoded) {
             return;
         const top = editor.getBoundingClientRect().top;
         editor.id ||= root.id + '-editor';
-        root.before(make('p', {}, make('a', {href: '#' + editor.id, text: t('The picture is with the editor now.')})));
+        root.before(make('p', {}, make('a', {href: '#' + editor.id, text: t('The picture is now beside the editor.')})));
         editor.before(root);
         scrollBy(0, editor.getBoundingClientRect().top - top);
     }

@@ -1,15 +1,15 @@
 /* What the live pictures say, in English or French, as the browser wants; and how elements are made. */
 
 const french = {
-    'samples': 'échantillons', 'bounces': 'rebonds', 'all as at first': 'tout comme au début', 'the camera': 'la caméra',
+    'samples': 'échantillons', 'bounces': 'rebonds', 'reset everything': 'tout réinitialiser', 'the camera': 'la caméra',
     'the ball': 'la boule', 'the mirror': 'le miroir', 'mirror': 'miroir', 'the cube': 'le cube', 'the lamp': 'la lampe', 'move': 'déplacer',
     'left': 'à gauche', 'right': 'à droite', 'up': 'en haut', 'down': 'en bas', 'nearer': 'plus près', 'farther': 'plus loin',
-    'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample': 'échantillon', 'The path': 'Le chemin', 'The path in words': 'Le chemin en mots', 'sample before': 'échantillon précédent',
+    'from above': 'vu d’en haut', 'from the side': 'vu de côté', 'close': 'fermer', 'sample': 'échantillon', 'The path': 'Le chemin', 'The path in words': 'Le chemin en mots', 'previous sample': 'échantillon précédent',
     'next sample': 'échantillon suivant', 'on the left': 'à gauche', 'the chapter before': 'le chapitre précédent',
     'one sample': 'un seul échantillon', 'other numbers': 'd’autres nombres', 'with its noise': 'avec son bruit',
-    'yours': 'la vôtre', 'The picture is with the editor now.': 'L’image est maintenant près de l’éditeur.', 'right one': 'la bonne', 'rt.h\'s own function': 'la fonction de rt.h',
+    'yours': 'la vôtre', 'The picture is now beside the editor.': 'L’image est maintenant à côté de l’éditeur.', 'right one': 'la bonne', 'rt.h\'s own function': 'la fonction de rt.h',
     'rays at a time': 'rayons à la fois', 'workers': 'fils', 'worker': 'fil', 'ray at a time': 'rayon à la fois', 'random': 'aléatoires',
-    'sphere': 'sphère', 'walls': 'murs', 'cube': 'cube', 'shadows': 'ombres', 'indirect light': 'lumière indirecte', 'glass': 'verre', 'lamps': 'lampes', 'gloss': 'brillance', 'lens and sky': 'objectif et ciel', 'patterns': 'motifs', 'triangles': 'triangles', 'your own shape': 'une forme à soi', 'the teapot': 'la théière', 'the pedestal': 'le socle', 'height': 'hauteur', 'the glass ball': 'la boule de verre', 'radius': 'rayon', 'shininess': 'brillance', 'refractive index': 'indice de réfraction', 'exposure': 'exposition', 'more': 'plus', 'less': 'moins', 'camera': 'caméra', 'matt': 'mat', 'normal': 'normale', 'lamp': 'lampe', 'in shadow': 'à l’ombre', 'without noise': 'sans bruit', 'Sobol numbers': 'nombres de Sobol',
+    'sphere': 'sphère', 'walls': 'murs', 'cube': 'cube', 'shadows': 'ombres', 'indirect light': 'lumière indirecte', 'glass': 'verre', 'lamps': 'lampes', 'gloss': 'brillance', 'lens and sky': 'objectif et ciel', 'patterns': 'motifs', 'triangles': 'triangles', 'your own shape': 'une forme à soi', 'the teapot': 'la théière', 'the pedestal': 'le socle', 'height': 'hauteur', 'the glass ball': 'la boule de verre', 'radius': 'rayon', 'shininess': 'brillance', 'refractive index': 'indice de réfraction', 'exposure': 'exposition', 'more': 'plus', 'less': 'moins', 'camera': 'caméra', 'matt': 'mat', 'normal': 'normale', 'lamp': 'lampe', 'in shadow': 'à l’ombre', 'without noise': 'sans bruit', 'Sobol points': 'nombres de Sobol',
     'as in chapter': 'comme au chapitre', 'The picture is done.': 'L’image est terminée.', 'error': 'erreur', 'gamma': 'gamma',
     'million rays a second': 'millions de rayons par seconde', 'This picture cannot move here': 'Cette image ne peut pas bouger ici',
 };

@@ -138,7 +138,7 @@ const test = (name, act) => { tests[name] = act; };
 test('file: a server is needed', async () => {
     const page = await newPage();
     await page.goto(pathToFileURL(resolve(`${pages}/demo01.html`)).href);
-    assert.match(await text(page, '.edit'), /a server is needed: python3 -m http\.server/);
+    assert.match(await text(page, '.edit'), /you need a web server: python3 -m http\.server/);
 });
 
 test('first: what is fetched, and when', async () => {
@@ -167,10 +167,10 @@ test('the server ends meanwhile', async () => {
     const page = await open(undefined, undefined, context);
     missing = /editor\.js/;
     await press(page, 'Write it yourself');
-    await page.waitForFunction(() => /The editor did not come/.test(document.body.textContent));
+    await page.waitForFunction(() => /The editor could not be loaded/.test(document.body.textContent));
     missing = /clang\.bin/;
     await begin(page);
-    assert.match(await text(page, '.edit-status'), /The compiler did not come: clang\.bin: .* 404/);
+    assert.match(await text(page, '.edit-status'), /The compiler could not be loaded: clang\.bin: .* 404/);
     missing = /^$/;
     await press(page, 'compile and try');
     await finished(page);
@@ -268,7 +268,7 @@ test('what goes wrong while it runs', async () => {
     said = await attempt(page, reflect('static volatile char much[2000000000]; much[(int)normal.x] = 1;'));
     assert.match(said.status, /does not compile: no end within 30 seconds/);
     said = await attempt(page, reflect('abort();', '#include <stdlib.h>'));
-    assert.match(said.verdict, /it crashed: it came to where it must not be/);
+    assert.match(said.verdict, /it crashed: it reached a place that it must not reach/);
     said = await attempt(page, reflect('float *volatile p = 0; *p = 1;'));
     assert.match(said.verdict, /it crashed/);
     said = await attempt(page, reflect('').replace('2 *', '2.0f *'));
@@ -306,7 +306,7 @@ test('each routine, as rt.h has it, is all right', async () => {
 test('the text is kept, saved and given back', async () => {
     let page = await open();
     await begin(page);
-    await press(page, 'as at first');
+    await press(page, 'start over');
     const starter = await saved(page, 'my_hit_sphere.c');
     assert.match(starter, /My own rt_hit_sphere[^]*#define rt_hit_sphere my_hit_sphere/);
     await attempt(page, right);
@@ -320,7 +320,7 @@ test('the text is kept, saved and given back', async () => {
     assert.match(await text(page, '.edit-verdict'), /rt_camera_ray, chapter 1/);
     await page.select('.edit select', 'rt_hit_sphere');
     assert.equal(await saved(page, 'my_hit_sphere.c'), right);
-    await press(page, 'as at first');
+    await press(page, 'start over');
     assert.equal(await saved(page, 'my_hit_sphere.c'), starter);
     await page.close();
 });
@@ -348,7 +348,7 @@ test('by the keys alone', async () => {
     await page.keyboard.type('// by itself');
     await page.waitForFunction(() => /compiling/.test(document.querySelector('.edit-status').textContent));
     await finished(page);
-    await press(page, 'as at first');
+    await press(page, 'start over');
     await finished(page);
     await page.close();
 });
@@ -403,7 +403,7 @@ test('the marks of make grade', async () => {
     const tried = spawnSync(`${build}/web/classroom/grade`,
         ['--folder', work, '--try', join(work, 'my_hit_sphere.c')], { encoding: 'utf8' });
     assert.match(tried.stdout, /\nall right\n$/);
-    await press(last, 'as at first');
+    await press(last, 'start over');
     await last.close();
     rmSync(work, { recursive: true });
 });
@@ -438,9 +438,9 @@ test('the picture by it, beside the right one', async () => {
         `${leave}{\n    static int calls;\n    if (++calls > 5000)\n        for (volatile int on = 1; on;) { }\n    return other_leave(point, normal, direction);\n}\n`);
     assert.match(await text(page, '.edit-verdict'), /^all right/m);
     await page.waitForFunction(() => !document.querySelector('.live').classList.contains('mine'), { timeout: 60000 });
-    assert.match(await text(page, '.edit-status'), /The picture by it: no end after 3 s: stopped/);
+    assert.match(await text(page, '.edit-status'), /The picture: stopped: it did not end within 3 s/);
     await page.waitForFunction(() => document.querySelector('.live').live.done > 0, { timeout: 60000 });
-    await press(page, 'as at first');
+    await press(page, 'start over');
     await finished(page);
 });
 
@@ -466,7 +466,7 @@ test('for everybody: axe-core, light and dark, narrow and wide', async () => {
         await look('error');
         await attempt(page, reflect('printf("%g\\n", (double)normal.x);', '#include <stdio.h>'));
         await look('prints');
-        await press(page, 'as at first');
+        await press(page, 'start over');
         await finished(page);
         await page.close();
     }

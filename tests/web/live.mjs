@@ -139,7 +139,7 @@ tests['one worker, three, and none make the same picture'] = async () => {
 
 // ---- what moves -----------------------------------------------------------------------------------
 
-tests['a drag moves the ball, and all is as at first again'] = async () => {
+tests['a drag moves the ball, and reset moves it back'] = async () => {
     for (const demo of ['demo01', 'demo07']) {
         const page = await open(demo);
         await done(page);
@@ -148,7 +148,7 @@ tests['a drag moves the ball, and all is as at first again'] = async () => {
         await anew(page, () => drag(page, BALL, [60, -20], 20, 15));
         assert.ok(await page.evaluate(() => document.querySelector('.live').live.drafts.length) > 3, 'drafts on the way');
         assert.notEqual(await hash(page), first);
-        await anew(page, () => button(page, 'all as at first'));
+        await anew(page, () => button(page, 'reset everything'));
         assert.equal(await hash(page), first);
     }
 };
@@ -417,8 +417,8 @@ tests['a teapot is taken with all its triangles, and they are told'] = async () 
     await anew(page, () => drag(page, [380, 290], [-20, 10], 20, 60)); // the pedestal
     assert.ok(await page.evaluate(() => document.querySelector('.live').live.drafts.length) > 0, 'drafts on the way');
     assert.notEqual(await hash(page), first);
-    await button(page, 'all as at first');
-    await become(page, first, 'as at first');
+    await button(page, 'reset everything');
+    await become(page, first, 'reset');
 };
 
 tests['what the keys can move is what the stage has'] = async () => {
