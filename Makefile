@@ -38,7 +38,7 @@ HEADERS := rt.h $(wildcard demos/*.h)
 PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files load progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
-.PHONY: help deps demos test golden check bench bench-rays docs web deps-web starters try grade install clean $(DEMOS)
+.PHONY: help deps demos test golden check bench bench-rays docs deps-docs web deps-web starters try grade install clean $(DEMOS)
 
 help: ## this list
 	@echo '  make demo01 ... demo17  build and run a chapter; ARGS="1280 960 --samples 64"'
@@ -51,7 +51,10 @@ deps: ## install what is missing: SDL2, SDL2_gfx, stb, cmocka, cJSON, OpenMP
 deps-web: ## likewise for "make web": clang, lld and wasi-libc, node, npm, chromium
 	@.ci/deps web
 
-ifneq (,$(filter deps deps-web,$(MAKECMDGOALS)))
+deps-docs: ## likewise for the site and the PDF of "make docs": pandoc, chromium, pdfinfo, a maths font
+	@.ci/deps docs
+
+ifneq (,$(filter deps deps-web deps-docs,$(MAKECMDGOALS)))
 .NOTPARALLEL: # with -j, too, "deps" comes first
 endif
 
