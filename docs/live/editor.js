@@ -259,7 +259,7 @@ self.rtEditor = (div, folder) => {
     }
 
     live?.addEventListener('mine-failed', ({ detail }) => {
-        status.textContent += `. The picture: ${detail}`;
+        status.textContent += `. The picture ${detail}`;
     });
     choice.addEventListener('change', () => show(choice.value));
     show(routine);

@@ -438,7 +438,7 @@ test('the picture by it, beside the right one', async () => {
         `${leave}{\n    static int calls;\n    if (++calls > 5000)\n        for (volatile int on = 1; on;) { }\n    return other_leave(point, normal, direction);\n}\n`);
     assert.match(await text(page, '.edit-verdict'), /^all right/m);
     await page.waitForFunction(() => !document.querySelector('.live').classList.contains('mine'), { timeout: 60000 });
-    assert.match(await text(page, '.edit-status'), /The picture: stopped: it did not end within 3 s/);
+    assert.match(await text(page, '.edit-status'), /The picture stopped: it did not end within 3 s/);
     await page.waitForFunction(() => document.querySelector('.live').live.done > 0, { timeout: 60000 });
     await press(page, 'start over');
     await finished(page);
