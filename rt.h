@@ -56,70 +56,69 @@
  *                 direct and indirect light, on all cores. Part two: glass, gloss,
  *                 patterns, lamps with a size, a sky, a lens, meshes of triangles, shapes
  *                 of your own. C99 and C++17, libc, libm.
- * WHAT IT IS NOT  No files, no windows. It does not print, exit, or keep global state,
- *                 and allocates only for rt_build_bvh and while rt_render or rt_denoise
- *                 runs.
+ * WHAT IT IS NOT  It opens no files and no windows. It does not print, exit or keep
+ *                 global state. It allocates memory only for rt_build_bvh, and while
+ *                 rt_render or rt_denoise runs.
  *
- * HOW TO READ IT  From top to bottom. Chapters 0 to 17 are plain C, each on top of the
- *                 ones before; demos/demoNN and docs/NN- have the same numbers. The
- *                 machinery that runs them on all cores, several rays at a time, stands
+ * HOW TO READ IT  From top to bottom. Chapters 0 to 17 are plain C, and each builds on
+ *                 those before it; demos/demoNN and docs/NN- have the same numbers. The
+ *                 machinery that runs them on all cores, several rays at a time, comes
  *                 last, under RT_IMPLEMENTATION.
  *
  * OPTIONS         Define before the include:
  *                 RT_IMPLEMENTATION  also compile the functions marked RTDEF
  *                 RT_STATIC          make those private to this file
- *                 RTDEF              or say yourself how they are declared
+ *                 RTDEF              your own way of declaring them
  *                 RT_NO_PACKETS      one ray at a time only: compiles sooner, runs slower
- *                 RT_PACKETS         packets of rays also where the compiler does not
- *                                    optimise (slow: for tests)
+ *                 RT_PACKETS         packets even without optimisation (slow: for tests)
  *                 RT_MALLOC, RT_FREE in place of malloc and free
  *                 RT_ASSERT          in place of assert, for what cannot happen
- *                 rt_reflect ...     your own routine in place of that one: see below
+ *                 rt_reflect ...     your routine in place of that one: see below
  *
  * CONVENTIONS     Right-handed world, y up; any unit of length in which no detail is
  *                 smaller than 1e-4 (see rt_leave). Colours are linear RGB. Pixel (0,0)
  *                 is top left and covers [0,1] x [0,1] of the film; its centre is (0.5,
  *                 0.5); its value is the mean of the light over its square. A light's
  *                 intensity is in W/sr per channel. Surfaces have two sides. A scene,
- *                 camera, material or options that are all zero are valid; 0 stands for
- *                 the documented default. Vectors pass by value, larger things by
- *                 pointer, results come last. Notation of the formulas: ray C + t u,
+ *                 camera, material or options with all fields zero are valid; 0 stands
+ *                 for the documented default. Vectors are passed by value, larger things
+ *                 by pointer; results come last. Notation of the formulas: ray C + t u,
  *                 sphere of centre O and radius R, point P, normal N, light S at distance
  *                 d in the direction L (|L| = 1), albedo rho, <a,b> scalar product.
  *
  * THREADS         Every function may run at the same time on several threads, as long as
- *                 nobody writes what another reads. rt_render starts threads by itself,
- *                 and they meet only when it ends; rt_build_bvh does so for more than
- *                 65536 shapes, as many as OpenMP offers. After that, in a child that
- *                 fork() makes, GNU's OpenMP hangs as soon as it needs more than one
- *                 thread: there, give options.threads = 1 and let rt_render build
- *                 the tree, or fork before the first picture.
+ *                 nobody writes what another reads. rt_render starts its own threads, and
+ *                 they meet only when it ends. For more than 65536 shapes rt_build_bvh
+ *                 starts some, too, as many as OpenMP offers. After that, GNU's OpenMP
+ *                 hangs in a child made by fork() as soon as it needs more than one
+ *                 thread: there, set options.threads = 1 and let rt_render build the
+ *                 tree, or fork before the first picture.
  * SAME BITS       The picture depends on what is rendered, not on how: not on the number
  *                 of threads or lanes, nor on how samples are split over calls (but see
  *                 rt_render on more than 4096 in one call). Pass -ffp-contract=off for
- *                 that: else gcc contracts a*b+c where the machine can (-march=native),
- *                 and not everywhere alike. It also makes the bits the same on all
- *                 machines and compilers. -ffast-math is refused.
+ *                 that: otherwise gcc contracts a*b+c where the machine allows it
+ *                 (-march=native), but not at the same places every time. The flag also
+ *                 makes the bits the same on all machines and compilers. -ffast-math is
+ *                 refused.
  * ROBUSTNESS      Spheres are intersected in double precision, so that walls of radius
  *                 1e5 work in a room of size 100, and a sphere is hit from 1e12 radii
  *                 away: no wrong hit or miss in 1.8 million rays, t within one rounding.
- *                 Boxes in float, exact on planes, edges and corners; no ray leaves a
- *                 closed box, or a room of six walls, of 1e9 that were sent. Triangles
- *                 in double: no ray gets through between two of them, none of 19 600
- *                 aimed at edges and corners met a wrong one, and no path of 81 million
- *                 bounces left a closed mesh. A ray that leaves a surface starts 8
- *                 roundings beside it (rt_leave): no self-hit in 3 million bounces. NaN
+ *                 Boxes are in float, exact on planes, edges and corners: of 1e9 rays
+ *                 that were sent, none left a closed box or a room of six walls.
+ *                 Triangles are in double: no ray gets through between two of them, none
+ *                 of 19 600 aimed at edges and corners met a wrong one, and in 81 million
+ *                 bounces no path left a closed mesh. A ray that leaves a surface starts
+ *                 8 roundings off it (rt_leave): no self-hit in 3 million bounces. NaN
  *                 and infinity in a ray or a shape are a miss, never a crash. Sine and
  *                 cosine are our own, so that libm cannot change a path. A valid scene
- *                 raises no floating-point exception (invalid, divide, overflow), so
- *                 that you may trap yours; clang needs -ftrapping-math for that.
- *                 Packets do raise them, but rt_render runs them with traps off and the
- *                 flags put back. How all this is tested: docs/correctness.md.
- * IN C++          Include it outside of any namespace, for it includes C headers.
- * ERRORS          rt_render, rt_render_pixels, rt_denoise, rt_build_bvh and
- *                 rt_check_... can fail.
- *                 They return an rt_status, and rt_status_text says in English what was
- *                 wrong and what to do about it.
+ *                 raises no floating-point exception (invalid, divide, overflow), so you
+ *                 may trap your own; clang needs -ftrapping-math for that. Packets do
+ *                 raise some, but rt_render runs them with traps off and then restores
+ *                 the flags. How all this is tested: docs/correctness.md.
+ * IN C++          Include it outside any namespace, since it includes C headers.
+ * ERRORS          rt_render, rt_render_pixels, rt_denoise, rt_build_bvh and rt_check_...
+ *                 can fail. They return an rt_status, and rt_status_text says in English
+ *                 what was wrong and what to do about it.
  *
  * CONTENTS        0 vectors            rt_vec3, rt_dot, rt_normalize, rt_basis, rt_sincos
  *                 1 rays and spheres   rt_ray, rt_camera_ray, rt_hit_sphere
@@ -162,13 +161,13 @@
 #endif
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "rt.h: without -ffast-math, -Ofast, -ffinite-math-only please: NaN tests would go."
+#error "rt.h: please, no -ffast-math, -Ofast, -ffinite-math-only: they remove NaN tests."
 #endif
 #if defined(__TINYC__) && __TINYC__ <= 927
-#error "rt.h: not with tcc 0.9.27, please: it mixes up numbers given to functions."
+#error "rt.h: please, not tcc 0.9.27: it mixes up numbers passed to functions."
 #endif
 #ifdef _M_FP_FAST
-#error "rt.h: without /fp:fast please, with /fp:precise: NaN tests would go."
+#error "rt.h: please, /fp:precise instead of /fp:fast, which removes NaN tests."
 #endif
 #ifdef __clang__
 #pragma STDC FP_CONTRACT OFF /* undone at the end of the header; gcc needs the flag */
@@ -223,7 +222,7 @@ static inline rt_vec3 rt_sub(rt_vec3 a, rt_vec3 b)
     return rt_vec(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-/* Component by component: what is left of light a on a surface of colour b. */
+/* Component by component: what a surface of colour b leaves of light a. */
 static inline rt_vec3 rt_mul(rt_vec3 a, rt_vec3 b)
 {
     return rt_vec(a.x * b.x, a.y * b.y, a.z * b.z);
@@ -270,9 +269,8 @@ static inline rt_dvec3 rt_to_double(rt_vec3 v)
     return rt_dvec((double)v.x, (double)v.y, (double)v.z);
 }
 
-/* gcc 12 forgets to round in (double)(float)x where it makes vectors of x and y by
- * itself. An empty instruction that might change the float keeps it from looking
- * through. */
+/* gcc 12 forgets to round in (double)(float)x when it vectorises x and y by itself. An
+ * empty instruction that might change the float prevents that. */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2_MATH__)
 #define RT__ROUND(x) __asm__("" : "+x"(x))
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__aarch64__)
@@ -320,12 +318,12 @@ static inline rt_dvec3 rt_dcross(rt_dvec3 a, rt_dvec3 b)
 static inline rt_dvec3 rt_dnormalize(rt_dvec3 v)
 {
     const double length = sqrt(rt_ddot(v, v));
-    if (!(length > 0.0 && length <= DBL_MAX)) /* so written that NaN fails, too */
+    if (!(length > 0.0 && length <= DBL_MAX)) /* written so that NaN fails, too */
         return rt_dvec(0.0, 0.0, 0.0);
     return rt_dscale(v, 1.0 / length);
 }
 
-/* The same for floats. In double, because the square of 1e20 does not fit a float. */
+/* The same for floats; in double, because the square of 1e20 does not fit a float. */
 static inline rt_vec3 rt_normalize(rt_vec3 v)
 {
     return rt_to_float(rt_dnormalize(rt_to_double(v)));
@@ -349,12 +347,12 @@ static inline void rt_basis(rt_vec3 n, rt_vec3 *a, rt_vec3 *b)
     *b = rt_vec(m, sign + n.y * n.y * k, -n.y);
 }
 
-/* Sine and cosine of an angle given in turns (1 turn = 360 degrees = 2 pi), for turns in
- * [0, 1], absolute error below 1e-7; for anything else those of 0. Whole quarters of a
- * turn are taken off, which is exact, and the rest, at most an eighth of a turn either
- * way, goes into two short polynomials. Why not sinf and cosf: every libm rounds
- * differently, and the pictures would differ. Coefficients: S. Moshier, Cephes library
- * (sinf, cosf), minimax on [-pi/4, pi/4]. */
+/* Sine and cosine of an angle in turns (1 turn = 360 degrees = 2 pi). For turns in [0, 1]
+ * the absolute error is below 1e-7; anything else counts as 0. Whole quarter turns are
+ * subtracted, which is exact; the rest, at most an eighth of a turn either way, goes into
+ * two short polynomials. sinf and cosf will not do: every libm rounds differently, so the
+ * pictures would differ. Coefficients: S. Moshier, Cephes library (sinf, cosf), minimax
+ * on [-pi/4, pi/4]. */
 static inline void rt_sincos(float turns, float *sine, float *cosine)
 {
     if (!(turns >= 0.0f && turns <= 1.0f))
@@ -366,7 +364,7 @@ static inline void rt_sincos(float turns, float *sine, float *cosine)
     const float c4 = 4.1666645683e-2f + xx * (-1.3887316255e-3f + xx * 2.4433157118e-5f);
     const float s = x + x * xx * s3; /* the small terms first, then one rounding */
     const float c = 1.0f + (xx * xx * c4 - 0.5f * xx);
-    const bool odd = (quarter & 1) != 0; /* a quarter turn on, sine is cosine */
+    const bool odd = (quarter & 1) != 0; /* odd quarters swap sine and cosine */
     *sine = ((quarter & 2) != 0 ? -1.0f : 1.0f) * (odd ? c : s);
     *cosine = (((quarter + 1) & 2) != 0 ? -1.0f : 1.0f) * (odd ? s : c);
 }
@@ -386,13 +384,13 @@ static inline void rt_sincos(float turns, float *sine, float *cosine)
  *     }
  *
  * Now rt_reflect means yours, here and in your program: the definition below is left out,
- * what calls it calls yours, and rt_render traces one ray at a time, by the chapters. The
- * lines #ifndef rt_reflect ... #endif around the definition are all there is to it. It
- * counts for one file: rt_render is in the one with RT_IMPLEMENTATION.
- * "make try FILE=my_reflect.c" tests yours, and shows the room by it.
+ * its callers call yours, and rt_render traces one ray at a time, as the chapters do. The
+ * lines #ifndef rt_reflect ... #endif around the definition are all it takes. This holds
+ * for one file: rt_render is in the one with RT_IMPLEMENTATION. "make try
+ * FILE=my_reflect.c" tests your routine and renders the room with it.
  * ==================================================================================== */
 
-struct rt_camera; /* all of them come in the chapters */
+struct rt_camera; /* the chapters define them */
 struct rt_ray;
 struct rt_hit;
 struct rt_sphere;
@@ -484,7 +482,7 @@ typedef struct rt_camera {
 } rt_camera;
 
 /* The film of a camera: what all rays of one picture have in common. In double, so that a
- * ray is rounded once, at its end. */
+ * ray is rounded only once, at the end. */
 typedef struct rt__film {
     rt_vec3 position;
     rt_dvec3 forward, right, top;   /* unit vectors; forward (0,0,0): no film */
@@ -496,8 +494,9 @@ typedef struct rt__film {
  *
  *     tan x = x / (1 - x^2 / (3 - x^2 / (5 - ...))),
  *
- * from 90 degrees on of the other angle of the right-angled triangle, and 1 over that.
- * Within 1e-13, and the same everywhere, which libm's tan is not. J. Lambert, 1761. */
+ * From 90 degrees up it is 1 over the tangent of the other angle of the right-angled
+ * triangle. Right to 1e-13, and the same everywhere, which libm's tan is not. J. Lambert,
+ * 1761. */
 static inline double rt__tan_half(float degrees)
 {
     const bool narrow = degrees < 90.0f;
@@ -527,7 +526,8 @@ static inline rt__film rt__film_of(const rt_camera *camera, int width, int heigh
     film.forward = rt_dnormalize(direction);
     if (rt_ddot(film.forward, film.forward) == 0.0)
         return film;
-    /* products of two floats are exact in double: so is right, however short it is */
+    /* products of two floats are exact in double, so right is good even where it is
+     * short */
     film.right = rt_dnormalize(rt_dcross(direction, up));
     if (rt_ddot(film.right, film.right) == 0.0) {
         rt_vec3 a, b;
@@ -554,14 +554,14 @@ static inline rt_ray rt__film_ray(const rt__film *film, float x, float y)
 /* The ray from the camera through the point (x, y) of a film of width x height pixels;
  * (0,0) is the top left corner of the film, (0.5, 0.5) the centre of the top left pixel.
  *
- * With forward = the camera's direction, right = forward x up and top = right x forward,
- * all made unit vectors, the film stands at distance 1 and is 2 tan(fov_y/2) high; pixels
- * are square:
+ * The film stands at distance 1 and is 2 tan(fov_y/2) high; pixels are square. With the
+ * unit vectors forward along the camera's direction, right along forward x up, and top =
+ * right x forward, the ray's direction is
  *
  *     forward + 2 tan(fov_y/2) / height . ((x - width/2) right + (height/2 - y) top),
  *
- * normalised. y is subtracted because rows count downwards. However close up is to the
- * direction, the three are perpendicular within 1e-6; where it is parallel to it, or not
+ * normalised. y is subtracted because rows count downwards. The three are perpendicular
+ * within 1e-6, however close up is to the direction; where up is parallel to it, or not
  * finite, some perpendicular takes its place. The angle of view is right to 1e-5 degrees.
  * A width or height below 1, an angle out of range or a direction that is not finite
  * gives direction (0,0,0): a ray that hits nothing. */
@@ -574,8 +574,8 @@ static inline rt_ray rt_camera_ray(const rt_camera *camera, int width, int heigh
 }
 #endif
 
-/* What a surface does with light. It is explained in chapter 2 (albedo) and 6 (mirror);
- * the shapes carry one, so it is declared here. */
+/* What a surface does with light. Chapters 2 (albedo) and 6 (mirror) explain it; shapes
+ * carry one, so it is declared here. */
 typedef struct rt_material {
     rt_vec3 albedo; /* rho: the part of the light that is sent back, 0 to 1 per channel.
                        For a mirror (0,0,0) means (1,1,1): nothing is lost. */
@@ -598,10 +598,10 @@ typedef struct rt_hit {
     /* The rest is for part two, chapters 16 and 17; 0 for spheres and boxes. */
     int part;    /* of a mesh: which triangle */
     float u, v;  /* where on it */
-    bool inside; /* does the ray come from inside of the mesh or custom shape? */
+    bool inside; /* does the ray come from inside the mesh or custom shape? */
 } rt_hit;
 
-/* Nothing of part two. */
+/* What belongs to part two is 0. */
 static inline void rt__only_part_one(rt_hit *hit)
 {
     hit->part = 0;
@@ -615,19 +615,19 @@ static inline void rt__only_part_one(rt_hit *hit)
  *
  *     t^2 <u,u> + 2 t <f,u> + <f,f> - R^2 = 0,     a t^2 + 2 b t + c = 0,
  *
- * whose roots are t = (-b -+ sqrt(b^2 - a c)) / a. No real root: the ray passes by. Both
- * are negative where we are outside (c > 0) and going away (b > 0): the sphere is behind
- * us. Else the smaller root is the way in; if it is negative, too, we are inside, and the
+ * whose roots are t = (-b -+ sqrt(b^2 - a c)) / a. No real root: the ray passes by. If we
+ * are outside (c > 0) and going away (b > 0), both are negative: the sphere is behind us.
+ * Otherwise the smaller root is the way in; if it is negative, we are inside, and the
  * larger one is the way out.
  *
- * The formula is the textbook's, but in double: for a wall of radius 1e5, c is a small
- * difference of two numbers near 1e10, of which a float keeps seven digits: none is left.
- * Where the sphere is tiny and far away, b^2 - a c is such a difference, and double does
- * not help either. But the same number is a (R^2 - |l|^2), with l the way from the centre
- * to the nearest point of the ray, l = f - (b/a) u. That subtracts vectors, each
- * component for itself, and finds a sphere from 1e12 radii away (E. Haines et al.,
+ * The formula is the textbook's, but in double. For a wall of radius 1e5, c is a small
+ * difference of two numbers near 1e10, and a float keeps seven digits of each: none would
+ * be left. Where the sphere is tiny and far away, b^2 - a c is such a difference, and
+ * even double does not help. But it equals a (R^2 - |l|^2), where l is the vector f -
+ * (b/a) u from the centre to the nearest point of the ray. That subtracts vectors,
+ * component by component, and finds a sphere from 1e12 radii away (E. Haines et al.,
  * "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019). All
- * comparisons are so written that NaN is a miss. */
+ * comparisons are written so that NaN is a miss. */
 #ifndef rt_hit_sphere
 static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
                                      float t_max)
@@ -657,9 +657,9 @@ static inline double rt__meet_sphere(const rt_sphere *sphere, const rt_ray *ray,
     return t >= (double)FLT_MIN && t <= (double)FLT_MAX && (float)t < t_max ? t : 0.0;
 }
 
-/* The hit at this t. In double again; P is put back onto the sphere, O + R n, so that its
- * error does not grow with t. P - O is R long but for rounding, and one step of Newton's
- * method gives n length 1, unless the sphere is very far away. */
+/* The hit at this t. In double again; P is put back onto the sphere, at O + R n, so that
+ * its error does not grow with t. P - O has length R but for rounding, so one step of
+ * Newton's method gives n length 1, unless the sphere is very far away. */
 static inline bool rt__hit_sphere_at(const rt_sphere *sphere, const rt_ray *ray, double t,
                                      rt_hit *hit)
 {
@@ -680,7 +680,7 @@ static inline bool rt__hit_sphere_at(const rt_sphere *sphere, const rt_ray *ray,
     return true;
 }
 
-/* The first point of the sphere on the ray with 0 < t < t_max, see above.
+/* The first point of the sphere on the ray with 0 < t < t_max: see above.
  *
  * Returns false, and leaves *hit alone, on a miss; NaN or infinity anywhere, a direction
  * of length 0 and a radius that is not positive are misses. */
@@ -721,7 +721,7 @@ typedef struct rt_light {
     rt_vec3 intensity; /* I in W/sr per channel, not negative */
 } rt_light;
 
-/* The light that comes from far away in a direction: see chapter 14. */
+/* The light that arrives from far away in this direction: see chapter 14. */
 typedef rt_vec3 rt_sky_function(const void *data, rt_vec3 direction);
 
 struct rt_bvh;          /* chapter 8 */
@@ -730,7 +730,8 @@ struct rt_lamp;         /* 12 */
 struct rt_mesh;         /* 16 */
 struct rt_custom_shape; /* 17 */
 
-/* The arrays are yours: they must live as long as the scene is used. NULL with 0 is fine.
+/* The arrays are yours: they must live as long as the scene is used. NULL with a count of
+ * 0 is fine.
  */
 typedef struct rt_scene {
     const rt_sphere *spheres;
@@ -739,7 +740,7 @@ typedef struct rt_scene {
     int box_count;
     const rt_light *lights;
     int light_count;
-    rt_vec3 background; /* the light that comes from where nothing is hit; 0 is black */
+    rt_vec3 background; /* the light where nothing is hit; 0 is black */
     const struct rt_bvh *bvh; /* for many shapes, see chapter 8; NULL: rt_intersect and
                                  rt_occluded ask each of them */
     /* The rest is for part two, chapters 11 to 17; all zero, it changes nothing. */
@@ -747,7 +748,7 @@ typedef struct rt_scene {
                                           each mesh, each custom shape */
     const struct rt_lamp *lamps;
     int lamp_count;
-    rt_sky_function *sky; /* NULL, or in place of the background, handed sky_data */
+    rt_sky_function *sky; /* NULL, or in place of the background; gets sky_data */
     const void *sky_data;
     const struct rt_mesh *meshes;
     int mesh_count;
@@ -764,11 +765,11 @@ static inline bool rt__intersect_bvh(const rt_scene *scene, const rt_ray *ray,
 static inline int rt__nearest_other(const rt_scene *scene, const rt_ray *ray, float t_max,
                                     bool any); /* chapters 16, 17 */
 
-/* The nearest hit of the ray in the scene: ask every shape for a t that is smaller than
- * the smallest so far, and the last one that had it for point and normal. Of two at
- * exactly the same distance the first wins, spheres before boxes; hit->shape is its
- * number. Returns false, and leaves *hit alone, if there is none. Part two adds two kinds
- * of shapes, which come after the boxes. */
+/* The nearest hit of the ray in the scene: ask every shape for a t below the smallest so
+ * far, then ask the last that had one for point and normal. Of two at exactly the same
+ * distance the first wins, spheres before boxes; hit->shape is its number. Returns false,
+ * and leaves *hit alone, if there is none. Part two adds two kinds of shapes, which come
+ * after the boxes. */
 #ifndef rt_intersect
 static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit *hit)
 {
@@ -799,16 +800,16 @@ static inline bool rt_intersect(const rt_scene *scene, const rt_ray *ray, rt_hit
 }
 #endif
 
-/* Lambert's law: the radiance that a diffuse surface sends, in every direction alike,
+/* Lambert's law: the radiance that a diffuse surface sends, the same in every direction,
  * when a point light of intensity I stands at P + to_light and nothing is in between,
  *
  *     rho/pi . I . max(0, <N,L>) / d^2     with L = to_light / d, d = |to_light|.
  *
- * The intensity spreads over a sphere of area 4 pi d^2: hence 1/d^2. The same light falls
- * on more surface when it comes in flat: hence the cosine. And 1/pi, because a surface
- * that sends radiance 1 in all directions sends pi W per m^2 in all, and must not send
- * more than it gets. A light behind the surface, or nearer than 1e-10 (I / d^2 must stay
- * a float), gives black. */
+ * The intensity spreads over a sphere of area 4 pi d^2: hence 1/d^2. Light that comes in
+ * at a grazing angle is spread over more surface: hence the cosine. And 1/pi, because a
+ * surface that sends radiance 1 in all directions sends pi W per m^2 in all, and must not
+ * send more than it gets. A light behind the surface, or nearer than 1e-10 (I / d^2 must
+ * stay a float), gives black. */
 #ifndef rt_lambert
 static inline rt_vec3 rt_lambert(rt_vec3 albedo, rt_vec3 normal, rt_vec3 to_light,
                                  rt_vec3 intensity)
@@ -826,16 +827,17 @@ static inline rt_vec3 rt_lambert(rt_vec3 albedo, rt_vec3 normal, rt_vec3 to_ligh
  * Chapter 3. Boxes
  * ==================================================================================== */
 
-/* What is left of a ray between the planes seen so far: it enters the last of their slabs
- * at t_in through a plane of axis axis_in, and leaves the first at t_out. */
+/* What is left of a ray between the planes seen so far. It enters the last of their slabs
+ * at t_in, through a plane of axis axis_in, and leaves the first at t_out, through one of
+ * axis_out. */
 typedef struct rt__slabs {
     float t_in, t_out;
     int axis_in, axis_out; /* 0, 1, 2 stand for x, y, z */
 } rt__slabs;
 
-/* way / u, at most FLT_MAX: what is farther away is as good as infinitely far, and a
- * division that overflows would stop a program that traps such things. Below 1e-22 it
- * may, since no way is longer than 1e16. */
+/* way / u, at most FLT_MAX: anything farther is as good as infinitely far, and a division
+ * that overflows would stop a program that traps overflows. It can only do so where |u|
+ * is below 1e-22, since no way is longer than 1e16. */
 static inline float rt__quotient(float way, float u)
 {
     if (fabsf(u) < 1e-22f && fabsf(way) > fabsf(u) * FLT_MAX)
@@ -895,16 +897,16 @@ static inline float rt__cut_box(const rt_box *box, const rt_ray *ray, float t_ma
 
 /* The first point of the box's surface on the ray with 0 < t < t_max: see above.
  *
- * The normal is that of the plane through which the ray comes or, from inside, goes; on
- * an edge or corner x goes before y, y before z. The box is closed: a ray in the plane
- * of a face hits it. A flat box (min.y = max.y, say) is a rectangle.
+ * The normal is that of the plane through which the ray enters or, from inside, leaves;
+ * on an edge or corner x comes before y, and y before z. The box is closed: a ray in the
+ * plane of a face hits it. A flat box (min.y = max.y, say) is a rectangle.
  *
  * Returns false, and leaves *hit alone, on a miss; NaN, infinity and min > max are
  * misses.
  *
- * Dividing by the direction, not multiplying by 1/u, and treating 0 apart keeps 0 . inf
- * away; float is enough here, since nothing is squared. Method: T. Kay, J. Kajiya, "Ray
- * tracing complex scenes", SIGGRAPH 1986. */
+ * Dividing by u, not multiplying by 1/u, and treating u = 0 separately avoids 0 . inf.
+ * Float is enough here, since nothing is squared. Method: T. Kay, J. Kajiya, "Ray tracing
+ * complex scenes", SIGGRAPH 1986. */
 #ifndef rt_hit_box
 static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
                               rt_hit *hit)
@@ -922,7 +924,7 @@ static inline bool rt_hit_box(const rt_box *box, const rt_ray *ray, float t_max,
     hit->material = &box->material;
     hit->shape = 0;
     rt__only_part_one(hit);
-    /* the normal against the ray, and the point exactly onto the plane */
+    /* the normal faces the ray, and the point goes exactly onto the plane */
     switch (inside ? slabs.axis_out : slabs.axis_in) {
     case 0:
         hit->normal.x = u.x > 0.0f ? -1.0f : 1.0f;
@@ -956,11 +958,11 @@ static inline float rt__meet_box(const rt_box *box, const rt_ray *ray, float t_m
 /* A coordinate of P, pulled back a little toward that of the ray's origin C, but not
  * beyond it.
  *
- * P = C + t u is rounded. Next to an edge it may come to lie on the far side of the wall
- * beside, and from there a path leaves a closed room. Both walls' t are wrong by two
- * roundings at most, and so is t u; P adds one more: 4 eps |P - C| + eps |P| is more than
- * all of them together. So what was strictly between two walls stays strictly between
- * them. */
+ * P = C + t u is rounded. Next to an edge it may end up on the far side of the
+ * neighbouring wall, and from there a path leaves a closed room. The t of each wall is
+ * wrong by two roundings at most, and so is t u; P adds one more. 4 eps |P - C| + eps |P|
+ * is more than all of them together, so what was strictly between two walls stays
+ * strictly between them. */
 static inline float rt__pull(float p, float origin)
 {
     const float step = FLT_EPSILON * (4.0f * fabsf(p - origin) + fabsf(p));
@@ -980,7 +982,7 @@ static inline void rt__pull_back(const rt_ray *ray, rt_hit *hit)
                         n.z == 0.0f ? rt__pull(p.z, o.z) : p.z);
 }
 
-/* The hit of the shape with this number; of a sphere at t, or wherever it is if that is
+/* The hit of the shape with this number; for a sphere at t, or wherever it is if t is
  * 0. */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                  double t, rt_hit *hit)
@@ -1004,15 +1006,15 @@ static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray
  * Chapter 4. Light and shadow
  * ==================================================================================== */
 
-/* Where a ray starts that leaves the surface at P in the given direction: a little off
+/* The start of a ray that leaves the surface at P in the given direction: a little off
  * the surface, along the normal, on the side to which the ray goes,
  *
  *     P +- 8 eps max(1, |x|, |y|, |z|) N,     eps = 2^-23, the spacing of floats at 1.
  *
  * P is rounded, so half of the time it lies just below the surface, and the ray would hit
- * the very surface that it leaves: the black dots called shadow acne. Skipping small t
- * instead does not help rays that leave flat, along the surface. In a room of 120 units
- * the offset is 1.1e-4 at most. */
+ * the very surface that it leaves. That shows as black dots, called shadow acne. Skipping
+ * small t instead does not help rays that leave at a grazing angle. In a room of 120
+ * units the offset is 1.1e-4 at most. */
 #ifndef rt_leave
 static inline rt_vec3 rt_leave(rt_vec3 point, rt_vec3 normal, rt_vec3 direction)
 {
@@ -1047,8 +1049,8 @@ static inline bool rt_occluded(const rt_scene *scene, const rt_ray *ray, float t
 #endif
 
 /* Does the point S see the point P of a surface with normal N? A ray from P along S - P
- * has S at t = 1: what it meets before stands in between, what it meets later does not
- * count. A light exactly on a surface is seen or not as the rounding goes. */
+ * reaches S at t = 1: what it meets before is in between, what it meets later does not
+ * count. If a light is exactly on a surface, rounding decides whether it is seen. */
 #ifndef rt_visible
 static inline bool rt_visible(const rt_scene *scene, rt_vec3 point, rt_vec3 normal,
                               rt_vec3 light)
@@ -1060,21 +1062,21 @@ static inline bool rt_visible(const rt_scene *scene, rt_vec3 point, rt_vec3 norm
 }
 #endif
 
-/* Who wants to look at the clock from time to time, also during a path that takes long:
- * see rt_render. */
+/* Looks at the clock from time to time, even during a path that takes long: see
+ * rt_render. */
 typedef struct rt_watch {
     int ticks; /* look when they have gone by */
     void (*look)(struct rt_watch *watch);
 } rt_watch;
 
-/* What one sample of one pixel carries along. The random numbers come in chapter 7; rays
- * are counted from here on. */
+/* What one sample of one pixel carries along. Chapter 7 draws the random numbers;
+ * counting rays starts here. */
 typedef struct rt_rng {
     uint32_t key;       /* made from pixel, sample and seed */
     uint32_t dimension; /* how many numbers were drawn */
     uint32_t rays;      /* how many rays were traced: for statistics only */
-    bool sobol;         /* not random numbers but those of chapter 9, and ... */
-    uint32_t sample;    /* ... of which sample */
+    bool sobol;         /* numbers of chapter 9, not random ones, ... */
+    uint32_t sample;    /* ... for this sample */
     rt_watch *watch;    /* NULL: nobody looks at the clock */
 } rt_rng;
 
@@ -1085,7 +1087,7 @@ static inline void rt__tick(rt_watch *watch)
 }
 
 /* Direct light: the sum of Lambert's law over the lights that the point sees. Shadow rays
- * are traced to the lights in front of the surface only, and counted in *rng. */
+ * are traced only to the lights in front of the surface, and counted in *rng. */
 #ifndef rt_direct
 static inline rt_vec3 rt_direct(const rt_scene *scene, const rt_hit *hit, rt_rng *rng)
 {
@@ -1112,13 +1114,13 @@ static inline rt_vec3 rt_direct(const rt_scene *scene, const rt_hit *hit, rt_rng
  *
  *     round(255 . clamp(value, 0, 1)^(1/gamma)).
  *
- * A screen makes light ~ byte^2.2, because the eye tells dark tones apart better than
- * bright ones and 256 steps have to do. Without the power 1/2.2 here, half of full
- * light would be shown as a fifth of it. gamma 1 encodes linearly; 0 means 2.2, and so
- * does a gamma that is negative, infinite or NaN. The clamp comes before the power (a
- * negative base has no power 1/2.2) and is so written that NaN becomes 0; infinity
- * becomes 255. In double, so that every libm gives the same byte: with gamma 2.2 no float
- * is so close to the middle of two bytes that it matters. */
+ * The light of a screen goes with byte^2.2, because the eye tells dark tones apart better
+ * than bright ones, and there are only 256 steps. Without the power 1/2.2 here, half of
+ * full light would be shown as a fifth of it. gamma 1 encodes linearly; 0 means 2.2, and
+ * so does a gamma that is negative, infinite or NaN. The clamp comes before the power (a
+ * negative base has no power 1/2.2) and is written so that NaN becomes 0; infinity
+ * becomes 255. The power is in double, so that every libm gives the same byte: with gamma
+ * 2.2 no float is close enough to the middle between two bytes to matter. */
 #ifndef rt_encode
 static inline unsigned char rt_encode(float value, double gamma)
 {
@@ -1132,12 +1134,12 @@ static inline unsigned char rt_encode(float value, double gamma)
  * Chapter 6. Mirrors
  * ==================================================================================== */
 
-/* The direction of the ray I after a mirror with unit normal N: what goes into the mirror
- * is turned round, the rest stays,
+/* The direction in which a mirror with unit normal N reflects the ray I: the part along N
+ * is reversed, the rest stays,
  *
  *     R = I - 2 <I,N> N.
  *
- * As long as I, and the same for N and -N. */
+ * R is as long as I, and the same for N and -N. */
 #ifndef rt_reflect
 static inline rt_vec3 rt_reflect(rt_vec3 incident, rt_vec3 normal)
 {
@@ -1149,7 +1151,7 @@ static inline rt_vec3 rt_reflect(rt_vec3 incident, rt_vec3 normal)
  * Chapter 7. Indirect light: random numbers, the hemisphere, radiance
  * ==================================================================================== */
 
-/* 32 bits well mixed into 32 others, one to one. The "PCG hash" of M. Jarzynski and M.
+/* Mixes 32 bits well into 32 others, one to one. The "PCG hash" of M. Jarzynski and M.
  * Olano, "Hash functions for GPU rendering", JCGT 9(3), 2020, after M. O'Neill's PCG. */
 static inline uint32_t rt_hash(uint32_t v)
 {
@@ -1159,10 +1161,10 @@ static inline uint32_t rt_hash(uint32_t v)
 }
 
 /* The random numbers of one sample of one pixel; pixel = row * width + column and sample
- * = 0, 1, 2 ... They are no sequence drawn from a common source, which threads would have
- * to share, but a function of (pixel, sample, seed) and of how many were asked for
- * before: the same on every machine, in whatever order and on however many threads pixels
- * are done. */
+ * = 0, 1, 2 ... They do not come from one common source, which threads would have to
+ * share. Each is a function of (pixel, sample, seed) and of how many were drawn before
+ * it: the same on every machine, whatever the order of the pixels and the number of
+ * threads. */
 static inline rt_rng rt_rng_start(uint32_t pixel, uint32_t sample, uint32_t seed)
 {
     rt_rng rng;
@@ -1178,10 +1180,9 @@ static inline rt_rng rt_rng_start(uint32_t pixel, uint32_t sample, uint32_t seed
 static inline uint32_t rt__sobol(const rt_rng *rng); /* chapter 9 */
 
 /* The next random number, uniform in (0, 1): the middle of one of 2^23 equal parts. That
- * is exact as a float, and neither 0 nor 1 comes up: with them a direction of the
- * hemisphere could lie in the surface itself. Draw one number per statement: in
- * f(rt_random(r), rt_random(r)) the compiler chooses which of the two comes first, and
- * compilers differ. */
+ * is exact as a float, and never 0 or 1, for which a direction of the hemisphere could
+ * lie in the surface itself. Draw one number per statement: in f(rt_random(r),
+ * rt_random(r)) the compiler chooses which comes first, and compilers differ. */
 #ifndef rt_random
 static inline float rt_random(rt_rng *rng)
 {
@@ -1212,16 +1213,16 @@ static inline rt_vec3 rt_sample_cosine(rt_vec3 normal, float r1, float r2)
 }
 #endif
 
-/* Is nothing left of the light, at least nothing that a float can hold with all digits?
- * (A product may stick at the smallest number of all and never become 0: of 1.4e-45 . 0.8
- * that is the nearest.) */
+/* Is nothing left of the light that a float can hold with all its digits? (A product may
+ * get stuck at the smallest float, 1.4e-45, and never become 0: 0.8 times that is rounded
+ * up to it again.) */
 static inline bool rt__is_spent(rt_vec3 throughput)
 {
     return throughput.x < FLT_MIN && throughput.y < FLT_MIN && throughput.z < FLT_MIN;
 }
 
-/* Russian roulette: with which probability a path goes on that has this throughput. The
- * less there is to expect, the sooner it ends; and it does end in a white room. */
+/* Russian roulette: the probability with which a path of this throughput goes on. The
+ * less there is to expect, the sooner it ends; and it does end even in a white room. */
 static inline float rt__chance(rt_vec3 throughput)
 {
     float most = throughput.x > throughput.y ? throughput.x : throughput.y;
@@ -1229,12 +1230,12 @@ static inline float rt__chance(rt_vec3 throughput)
     return most < 0.95f ? most : 0.95f;
 }
 
-/* As many bounces as it takes, by roulette, which begins at this one. */
+/* As many bounces as it takes; roulette ends the path, and begins at this one. */
 #define RT_ALL_BOUNCES INT_MAX
 #define RT__ROULETTE 4
 
-/* The radiance that comes back along the ray: an estimate from one random path, whose
- * mean over many paths is right.
+/* The radiance that comes back along the ray: an estimate from one random path. Its mean
+ * over many paths is right.
  *
  * The light that leaves P is the direct light plus what all other surfaces send to P,
  *
@@ -1248,12 +1249,12 @@ static inline float rt__chance(rt_vec3 throughput)
  *
  * bounces is how often the ray may be sent on after its first hit, by mirror or
  * diffusely; 0 is direct light only; negative counts as 0 here, and rt_render refuses it.
- * What would have come after is left out: in a closed room of albedo rho the picture
- * lacks the part rho^(bounces+1). RT_ALL_BOUNCES leaves nothing out: a path goes on with
- * probability p, and then its throughput is divided by p, so that the mean is the same.
- * That is Russian roulette (J. Arvo, D. Kirk, "Particle transport and image synthesis",
- * SIGGRAPH 1990). A loop, not a recursion: any number of bounces needs the same stack.
- * Random numbers and the count of rays come from *rng.
+ * All later light is left out: in a closed room of albedo rho the picture lacks the part
+ * rho^(bounces+1). RT_ALL_BOUNCES leaves nothing out: a path goes on with probability p,
+ * and then its throughput is divided by p, so that the mean is the same. That is Russian
+ * roulette (J. Arvo, D. Kirk, "Particle transport and image synthesis", SIGGRAPH 1990). A
+ * loop, not a recursion: any number of bounces needs the same stack. Random numbers and
+ * the count of rays come from *rng.
  *
  * J. Kajiya, "The rendering equation", SIGGRAPH 1986. */
 #ifndef rt_radiance
@@ -1279,7 +1280,7 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
         rt_vec3 direction;
         if (material->mirror) {
             direction = rt_reflect(ray.direction, hit.normal);
-            if (!rt_is_zero(material->albedo)) /* which would mean 1 */
+            if (!rt_is_zero(material->albedo)) /* 0 would mean 1 */
                 throughput = rt_mul(throughput, material->albedo);
         } else {
             const float r1 = rt_random(rng);
@@ -1288,7 +1289,7 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
             throughput = rt_mul(throughput, material->albedo);
         }
         if (rt__is_spent(throughput))
-            return sum; /* nothing that comes from here on would count */
+            return sum; /* no light from farther on would count */
         if (bounces == RT_ALL_BOUNCES && bounce >= RT__ROULETTE) {
             const float chance = rt__chance(throughput), r = rt_random(rng);
             rt_random(rng); /* not used: numbers come in pairs, see chapter 9 */
@@ -1305,9 +1306,9 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
 /* ====================================================================================
  * Chapter 8. Many shapes
  *
- * Ten thousand shapes, and every ray asks each of them: that is what rt_intersect does as
- * chapter 2 wrote it. But a ray that misses a box misses all that is in the box. So put
- * boxes around neighbouring shapes, boxes around neighbouring boxes, up to one around
+ * If there are ten thousand shapes, rt_intersect as chapter 2 wrote it asks each of them
+ * for every ray. But a ray that misses a box misses all that is in the box. So put boxes
+ * around neighbouring shapes, boxes around neighbouring boxes, and so on up to one around
  * everything: a bounding volume hierarchy, BVH. A ray then asks some tens of boxes and a
  * handful of shapes, whether there are thousands or millions; the time grows with the
  * logarithm of their number. Nothing else changes: the hit is the same, to the bit.
@@ -1320,18 +1321,18 @@ static inline rt_vec3 rt_radiance(const rt_scene *scene, const rt_ray *camera_ra
 typedef bool rt__search_function(const struct rt_scene *scene, const rt_ray *ray,
                                  float t_max, rt_hit *hit);
 
-/* Up to eight boxes, and what is in each: a leaf, that is up to eight shapes of one kind,
- * or another node. Eight, and one array for each coordinate, because that is what a core
- * of today can look at in one go (see the last section). */
+/* Up to eight boxes, and what is in each: a leaf of up to eight shapes of one kind, or
+ * another node. There are eight, and one array for each coordinate, because a modern core
+ * can look at that many at once (see the last section). */
 typedef struct rt_bvh_node {
     float min_x[8], min_y[8], min_z[8], max_x[8], max_y[8], max_z[8];
     int inside[8]; /* -n: nodes[n]; else 4 r + kind: the leaf that begins at rows[r] */
     int count;     /* of the boxes */
-    unsigned char order[28]; /* for the last section: in which order rays meet them */
+    unsigned char order[28]; /* for the last section: the order in which rays meet them */
 } rt_bvh_node;
 
-/* The first row of a leaf has the numbers of its shapes, -1 for none. Those that follow
- * are for the last section, with a copy of the shapes, column by column: */
+/* The first row of a leaf has the numbers of its shapes, -1 for none. The rows that
+ * follow are for the last section. They hold a copy of the shapes, column by column: */
 typedef union rt_bvh_row {
     int number[8];
     float value[8];
@@ -1352,9 +1353,9 @@ typedef struct rt_bvh {
     int sphere_count, box_count, triangle_count, custom_shape_count;
     int mesh_count;        /* and ... */
     int *triangles_before; /* ... each mesh and after the last, or NULL: few meshes */
-    void *memory;          /* in which nodes and rows lie */
+    void *memory;          /* where nodes and rows lie */
     rt__search_function *search; /* NULL, or that of the last section */
-    struct rt_path *path; /* NULL, or who wants to know what is asked: rt_trace_pixel */
+    struct rt_path *path; /* NULL, or where rt_trace_pixel notes what is asked */
 } rt_bvh;
 
 /* 1/u, but finite for u = 0: so large that what is outside stays outside. */
@@ -1363,7 +1364,8 @@ static inline float rt__inverse(float u)
     return fabsf(u) > 1e-37f ? 1.0f / u : u < 0.0f ? -1e37f : 1e37f;
 }
 
-/* The part of a ray between two planes of an axis, low and high: cut t_in, t_out down. */
+/* Cut t_in, t_out down to the part of a ray between two planes of an axis, low and
+ * high. */
 static inline void rt__trim(float low, float high, float origin, float inverse,
                             float *t_in, float *t_out)
 {
@@ -1386,7 +1388,7 @@ static inline void rt__trim_exactly(float low, float high, float origin, float d
 }
 
 /* rt__enter for a ray that is parallel to an axis, or almost: there floats overflow,
- * which would stop a program that traps such things. */
+ * which would stop a program that traps overflows. */
 static inline unsigned rt__enter_parallel(const rt_bvh_node *node, const rt_ray *ray,
                                           float t_max, float *t)
 {
@@ -1406,10 +1408,11 @@ static inline unsigned rt__enter_parallel(const rt_bvh_node *node, const rt_ray 
     return result;
 }
 
-/* Which of the node's boxes the ray meets with 0 < t < t_max: bit k of the result for box
- * k, and t[k], where it enters it. The slabs of chapter 3, with products in place of
- * quotients: it may say yes to a ray that misses by a rounding, but never no to one that
- * hits. The error is below 6 roundings: pbrt, section 6.8.2. */
+/* Which of the node's boxes does the ray meet with 0 < t < t_max? Bit k of the result is
+ * for box k, and t[k] is where the ray enters it. These are the slabs of chapter 3, with
+ * products in place of quotients: the answer may be yes for a ray that misses by a
+ * rounding, but never no for one that hits. The error is below 6 roundings: pbrt, section
+ * 6.8.2. */
 static inline unsigned rt__enter(const rt_bvh_node *node, const rt_ray *ray,
                                  rt_vec3 inverse, float t_max, float *t)
 {
@@ -1461,14 +1464,14 @@ static inline float rt__meet_shape(const rt_scene *scene, int number, const rt_r
 }
 
 /* What a ray on its way through the tree has yet to look at: a leaf or a node (inside,
- * see rt_bvh_node) and t, before which there is no hit in it, in one number, of which t
- * is the upper half: floats above 0 are in the same order as their bits. */
+ * see rt_bvh_node), and the t before which it has no hit. One number holds both, with t
+ * as its upper half: floats above 0 are in the same order as their bits. */
 typedef uint64_t rt__item;
 
 /* So many of them may wait, and never more do. Each node that the search enters puts up
- * to eight on the stack, of which one has been taken when it enters the next, further
- * down. So at the end of a way down through L levels there are 7 L + 1 at most, and
- * rt_build_bvh makes trees of at most RT__LEVELS levels. */
+ * to eight on the stack, and one of these is taken off when the search goes further down.
+ * So after L levels there are 7 L + 1 at most, and rt_build_bvh makes trees of at most
+ * RT__LEVELS levels. */
 enum { RT__LEVELS = 32, RT__WAITING = 7 * RT__LEVELS + 1 };
 
 static inline rt__item rt__make_item(float t, int inside)
@@ -1499,13 +1502,14 @@ static inline float rt__beyond(float t)
     return t < FLT_MAX - more ? t + more : FLT_MAX;
 }
 
-/* This shape is met at t; 0: it is not. Of several at the same t the first wins. */
+/* Is this shape, met at t (0: not met), nearer? Of several at the same t the first
+ * wins. */
 static inline bool rt__is_better(const rt__best *best, int number, float t)
 {
     return t > 0.0f && (t < best->t || (t == best->t && number < best->number));
 }
 
-/* All shapes of a leaf. If any will do, returns whether one is met. */
+/* Ask all shapes of a leaf. If any will do, returns whether one is met. */
 static inline bool rt__ask_leaf(const rt_scene *scene, int leaf, const rt_ray *ray,
                                 bool any, rt__best *best)
 {
@@ -1523,15 +1527,15 @@ static inline bool rt__ask_leaf(const rt_scene *scene, int leaf, const rt_ray *r
     return false;
 }
 
-/* The number of the nearest shape that the ray meets before t_max, of the first of
- * several at the same t, or -1; or if any will do, 0 if there is one. What is entered
- * first is looked at first, so that most of the rest turns out to be too far away. */
+/* The number of the nearest shape that the ray meets before t_max (of several at the same
+ * t, the first), or -1; or if any will do, 0 if there is one. The box that the ray enters
+ * first is searched first, so that most of the others turn out to be too far away. */
 static inline int rt__search(const rt_scene *scene, const rt_ray *ray, float t_max,
                              bool any)
 {
     rt__item waiting[RT__WAITING];
     if (!rt__is_finite(ray->origin) || !rt__is_finite(ray->direction))
-        return -1; /* else it would be asked of all shapes, in vain */
+        return -1; /* or it would ask all shapes in vain */
     const rt_vec3 inverse =
         rt_vec(rt__inverse(ray->direction.x), rt__inverse(ray->direction.y),
                rt__inverse(ray->direction.z));
@@ -1552,8 +1556,8 @@ static inline int rt__search(const rt_scene *scene, const rt_ray *ray, float t_m
             first = item < first ? item : first;
         }
         if (count > before) {
-            /* waiting[before] is UINT64_MAX, for which there is no use: what was last
-             * goes there, and the nearest comes last, to be taken first */
+            /* waiting[before] is UINT64_MAX, which nobody needs: the last item goes
+             * there, and the nearest comes last, to be taken first */
             waiting[before] = waiting[count - 1];
             waiting[count - 1] = first;
         }
@@ -1604,11 +1608,11 @@ static inline bool rt__occluded_bvh(const rt_scene *scene, const rt_ray *ray, fl
 /* ====================================================================================
  * Chapter 9. Less noise from the same rays
  *
- * Random numbers fall in clumps and leave gaps: of 16 in (0, 1), it is rare that each
- * sixteenth gets one. What a gap does not see is noise. Numbers chosen to fill the
- * interval evenly, however many are taken, see more with the same rays. The error of
- * random numbers falls as 1/sqrt(n); theirs falls faster, the more so the smoother the
- * picture: in the room about as n^-0.6.
+ * Random numbers fall in clumps and leave gaps: of 16 in (0, 1), rarely does each
+ * sixteenth get one. What falls into the gaps is missed, and that is noise. Numbers
+ * chosen to fill the interval evenly, however many are taken, see more with the same
+ * rays. With random numbers the error falls as 1/sqrt(n). With these it falls faster, the
+ * more so the smoother the picture: in the room about as n^-0.6.
  * ==================================================================================== */
 
 /* The 32 bits in reverse order: swap halves, then quarters, and so on. */
@@ -1621,9 +1625,9 @@ static inline uint32_t rt__reverse(uint32_t v)
     return (v & 0x55555555u) << 1 | (v >> 1 & 0x55555555u);
 }
 
-/* Owen's scrambling, of reversed bits: each bit is kept or flipped, as a random decision
- * that depends on the key and the bits below it. (Of a number in (0, 1): swap its halves
- * or not, then the halves of each half, each pair by a throw of its own, and so on. What
+/* Owen's scrambling, of reversed bits: a random decision, which depends on the key and
+ * the bits below, keeps or flips each bit. (In terms of the interval (0, 1): swap its
+ * halves or not, then the halves of each half, each pair by its own coin, and so on. What
  * was evenly spread stays so.) One to one. The hash is that of N. Vegdahl, "Building a
  * better LK hash", 2021, after S. Laine, T. Karras 2011 and B. Burley, "Practical
  * hash-based Owen scrambling", JCGT 9(4), 2020. */
@@ -1636,7 +1640,7 @@ static inline uint32_t rt__scramble(uint32_t v, uint32_t key)
     return v ^ v * 0x53a22864u;
 }
 
-/* The index of a sample made into the second coordinate of Sobol's points, reversed: bit
+/* Turns the index of a sample into the second coordinate of Sobol's points, reversed: bit
  * i of the result is the sum modulo 2 of the bits k >= i of the index for which the
  * binomial coefficient (k over i) is odd, in 5 steps instead of 32. (The first coordinate
  * is the index itself, reversed.) I. Sobol, 1967. */
@@ -1649,13 +1653,14 @@ static inline uint32_t rt__second(uint32_t v)
     return v ^ (v >> 1 & 0x55555555u);
 }
 
-/* The numbers of one sample of one pixel, as rt_rng_start, for rt_random to hand out:
- * each of them, and each pair - the 1st with the 2nd, the 3rd with the 4th - fills its
- * interval or square evenly over the samples 0, 1, 2 ... of a pixel: of the first 2^k
- * samples, one falls into each of the 2^k equal parts, however the square is cut into
- * rectangles of halves of halves. Sobol's first two dimensions, scrambled by Owen's
- * method (A. Owen, 1997) with other keys for each pixel; each pair takes the samples in
- * an order of its own, lest all pairs do the same and the picture be wrong. */
+/* Like rt_rng_start: the numbers of one sample of one pixel, for rt_random to hand out.
+ * Over the samples 0, 1, 2 ... of a pixel, each number fills its interval evenly, and
+ * each pair (the 1st with the 2nd, the 3rd with the 4th) its square: cut the square into
+ * 2^k equal rectangles, by halving again and again in any way, and one of the first 2^k
+ * samples falls into each. They are Sobol's first two dimensions, scrambled by Owen's
+ * method (A. Owen, 1997) with keys that differ from pixel to pixel. Each pair takes the
+ * samples in an order of its own; otherwise all pairs would do the same, and the picture
+ * would be wrong. */
 static inline rt_rng rt_sobol_start(uint32_t pixel, uint32_t sample, uint32_t seed)
 {
     rt_rng rng = rt_rng_start(pixel, 0, seed);
@@ -1677,45 +1682,47 @@ static inline uint32_t rt__sobol(const rt_rng *rng)
  * Chapter 10. A clean picture from few rays
  *
  * With few rays every pixel is wrong, but each in its own way, and its neighbours mostly
- * see the same surface in nearly the same light. So the mean over neighbours is nearer to
- * the truth than any of them, if one knows whom to ask. The camera rays know it: what a
- * pixel sees, and how much light the lamps send there directly, has hardly any noise. So
+ * see the same surface in nearly the same light. So a mean over neighbours is nearer to
+ * the truth than any one of them, if the right ones are asked. The camera rays tell
+ * which: what a pixel sees, and how much light the lamps send there directly, has hardly
+ * any noise. So
  *
  *     pixel = direct + albedo . light,
  *
- * and only the light, that is what arrives by way of other surfaces, is taken from the
+ * and only the light, which arrives by way of other surfaces, is taken from the
  * neighbours (rt_denoise, below):
  *
- *  1. Smooth. Means over 5 x 5 pixels, then over 5 x 5 that are twice as far apart, then
- *     four times ... (a trous, "with holes"): four times 25 reach as far as 61 x 61.
- *     Who sees another surface, or light that differs by more than noise can explain,
- *     counts little.
+ *  1. Smooth. Take means over 5 x 5 pixels, then over 5 x 5 that are twice as far apart,
+ *     then four times, then eight (a trous, "with holes"): four times 25 pixels reach as
+ *     far as 61 x 61. A pixel that sees another surface, or light that differs by more
+ *     than noise can explain, counts little.
  *  2. Edges. A pixel that sees two surfaces has no neighbours like itself. It is a
- *     mixture of two opposite ones, and the guides tell in which proportion.
+ *     mixture of two opposite ones, and the guides tell in what proportion.
  *  3. Doubt. Where the outcome is farther from the noisy pixels than their noise can
- *     explain, it is wrong, and they get part of their say back. So as the samples grow
- *     the picture tends to the truth.
+ *     explain, it is wrong, and part of the noisy pixels is put back. So with more
+ *     samples the picture tends to the truth.
  *
  * H. Dammertz et al., "Edge-avoiding a-trous wavelet transform for fast global
  * illumination filtering", HPG 2010; C. Schied et al., "Spatiotemporal variance-guided
- * filtering", HPG 2017. Steps 2 and 3 are ours. What it all gains: docs/10-clean.md.
+ * filtering", HPG 2017. Steps 2 and 3 are ours. What all this gains: docs/10-clean.md.
  * ==================================================================================== */
 
-/* What the camera rays of a pixel tell at once: of the first surface that is no mirror,
- * and of the light that comes without a detour. In an image the means over its samples;
- * all zero, but for direct, where there is no surface. */
+/* What the camera rays of a pixel tell at once about the first surface that is no mirror,
+ * and about the light that comes without a detour. In an image these are means over its
+ * samples. Where there is no surface, all but direct is zero. */
 typedef struct rt_guide {
-    rt_vec3 normal, point; /* of that surface, and in the world */
-    rt_vec3 albedo;        /* what arrives here of the light that it gets from others: its
-                              albedo, and that of the mirrors before it */
+    rt_vec3 normal, point; /* of that surface; the point is in the world */
+    rt_vec3 albedo;        /* the part of its light from other surfaces that arrives here:
+                              its albedo, times that of the mirrors before it */
     rt_vec3 direct;        /* its direct light, or the background */
     rt_vec3 half;          /* of direct, the mean of every second sample */
 } rt_guide;
 
 /* Follow the camera ray to the first surface that is no mirror, as rt_radiance does with
  * so many bounces, over four mirrors at most. (What comes by way of more is smoothed on
- * the last of them.) If it meets none: the background, and all else 0. direct is, to the
- * bit, what rt_radiance adds up to there; it asks the lamps, which *rng counts. */
+ * the last of them.) If it meets none, direct is the background and all else 0. direct
+ * is, to the bit, what rt_radiance adds up until then; it asks the lamps, and *rng counts
+ * those rays. */
 static inline rt_guide rt_first_look(const rt_scene *scene, const rt_ray *camera_ray,
                                      int bounces, rt_rng *rng)
 {
@@ -1746,9 +1753,10 @@ static inline rt_guide rt_first_look(const rt_scene *scene, const rt_ray *camera
     }
 }
 
-/* How unlike two pixels are, by what they see: 0, if the same plane; about 1, if one had
- * better not ask the other. |N1 - N2|^2 counts, and how far each point lies off the plane
- * of the other, as the sine of an angle: whatever the unit of length is. */
+/* How unlike two pixels are, by what they see: 0 if it is the same plane, about 1 if
+ * neither should ask the other. |N1 - N2|^2 counts, and so does how far each point lies
+ * off the plane of the other, as the sine of an angle, which does not depend on the unit
+ * of length. */
 RT__INLINE float rt__unlike(rt_vec3 normal1, rt_vec3 point1, rt_vec3 normal2,
                             rt_vec3 point2)
 {
@@ -1759,9 +1767,9 @@ RT__INLINE float rt__unlike(rt_vec3 normal1, rt_vec3 point1, rt_vec3 normal2,
 }
 
 /* How much one pixel has to say to another, 0 to 1: about e^-x, without libm, where x is
- * how unlike they are and d^2 / noise. d is the difference of their light, and noise what
- * is usual for one of these variances: six deviations are still near, since the pixels
- * are yet to be smoothed. */
+ * how unlike they are, plus d^2 / noise. d is the difference of their light, and noise is
+ * what is usual for pixels of these variances: six deviations still count as near, since
+ * the pixels are yet to be smoothed. */
 RT__INLINE float rt__say(float unlike, float light1, float variance1, float light2,
                          float variance2)
 {
@@ -1770,9 +1778,9 @@ RT__INLINE float rt__say(float unlike, float light1, float variance1, float ligh
     return root * root * root * root;
 }
 
-/* If a pixel is a mixture of two others, (1-t) of the left and t of the right, which t is
- * it? The one that comes nearest, for a vector of normal, albedo and point: the foot of
- * the perpendicular. *off: how far it is still off, squared. */
+/* If a pixel is a mixture of two others, (1-t) of the left and t of the right, what is t?
+ * The one that comes nearest, for a vector of normal, albedo and point: the foot of the
+ * perpendicular. *off is the square of how far off it still is. */
 RT__INLINE float rt__mixture(const rt_vec3 *pixel, const rt_vec3 *left,
                              const rt_vec3 *right, float *off)
 {
@@ -1790,9 +1798,9 @@ RT__INLINE float rt__mixture(const rt_vec3 *pixel, const rt_vec3 *left,
     return t;
 }
 
-/* How much of the noisy pixels comes back, 0 to 1. If they differ from the outcome by so
- * much (means of squares), and their variance is noise, then the rest is the square of
- * the mistake; weighed against the noise as the two variances of a mean are. Noise counts
+/* How much of the noisy pixels comes back, 0 to 1. differ is the mean square of how far
+ * they are from the outcome, and noise is their variance; the rest is the square of the
+ * mistake. It is weighed against the noise as two variances are in a mean. Noise counts
  * twice, lest chance look like a mistake, and more while there are so few samples that
  * its variance is hardly known. */
 RT__INLINE float rt__doubt(float differ, float noise, int samples)
@@ -1807,8 +1815,8 @@ RT__INLINE float rt__doubt(float differ, float noise, int samples)
  *
  * Part one knows matt surfaces and mirrors, lamps that are points, and a camera that is a
  * pinhole. Chapters 11 to 17 bring the rest. None of it changes anything above: a scene
- * has a table of surfaces or it has none, and then all of them are as in part one. The
- * loop that puts the chapters together, rt_radiance_mis, stands at the end.
+ * without a table of surfaces has those of part one. The loop that puts the chapters
+ * together, rt_radiance_mis, comes at the end.
  *
  * Chapter 11. Glass
  * ==================================================================================== */
@@ -1818,16 +1826,16 @@ typedef rt_vec3 rt_pattern_function(const void *data, rt_vec3 point, rt_vec3 nor
 
 /* What a surface does beyond its rt_material. All zero: nothing. */
 typedef struct rt_surface {
-    float eta;          /* 0: not glass. Else the shape is of clear glass, and this is its
-                           refractive index, 1 to 4: water 1.33, glass 1.5, diamond 2.42;
-                           its material does not count */
-    rt_vec3 absorption; /* of the glass: what light loses for each unit of length, see
+    float eta;          /* 0: not glass. Otherwise the shape is clear glass, and this is
+                           its refractive index, 1 to 4: water 1.33, glass 1.5, diamond
+                           2.42; its material does not count */
+    rt_vec3 absorption; /* of the glass: what light loses per unit of length, see
                            rt_transmittance */
     float shininess;    /* chapter 13. 0: matt, or a perfect mirror. Above, up to 1e6: a
-                           gloss, the sharper the larger it is. A mirror becomes a rough
+                           gloss, sharper the larger it is. A mirror becomes a rough
                            metal, a matt surface gets a coat of clear lacquer */
-    rt_vec3 emission;   /* radiance that it sends by itself, in all directions alike. Only
-                           chance finds it; what is small should be an rt_lamp */
+    rt_vec3 emission;   /* radiance that it sends by itself, the same in all directions.
+                           Only chance finds it; make small lights an rt_lamp */
     rt_pattern_function *pattern; /* chapter 15: in place of the albedo; NULL: none */
     const void *pattern_data;     /* handed to it */
 } rt_surface;
@@ -1835,8 +1843,8 @@ typedef struct rt_surface {
 static inline int rt__other_number(const rt_scene *scene,
                                    const rt_material *material); /* 16, 17 */
 
-/* The number of the shape that was hit; a routine of your own need not know it, so then
- * it is the one that has the material. -1 if there is none. */
+/* The number of the shape that was hit. A routine of your own need not set it; then it is
+ * the shape that has the material. -1 if there is none. */
 static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
 {
 #ifdef rt_intersect
@@ -1853,7 +1861,7 @@ static inline int rt__shape_number(const rt_scene *scene, const rt_hit *hit)
 #endif
 }
 
-/* The surface that was hit: of the scene's table, or all zero if it has none. */
+/* The surface that was hit: from the scene's table, or all zero if there is none. */
 static inline const rt_surface *rt_surface_of(const rt_scene *scene, const rt_hit *hit)
 {
     static const rt_surface plain = {
@@ -1862,8 +1870,8 @@ static inline const rt_surface *rt_surface_of(const rt_scene *scene, const rt_hi
     return number < 0 ? &plain : &scene->surfaces[number];
 }
 
-/* Did the ray come from inside the shape? Then N, which is on its side, points to the
- * middle. */
+/* Did the ray come from inside the shape? Then N, which is on the ray's side, points
+ * inward. */
 static inline bool rt_is_inside(const rt_scene *scene, const rt_hit *hit)
 {
     const int number = rt__shape_number(scene, hit), box = number - scene->sphere_count;
@@ -1879,17 +1887,18 @@ static inline bool rt_is_inside(const rt_scene *scene, const rt_hit *hit)
 
 /* The part of the light that a surface of glass reflects, 0 to 1; the rest goes through.
  * The ray comes in at the angle i to the normal, cosine = cos i > 0, and would go on at
- * the angle t; eta is the refractive index behind the surface over that before it. Then
+ * the angle t; eta is the refractive index behind the surface over the index before it.
+ * Then
  *
  *     sin t = sin i / eta                                        (Snell's law)
  *     p = (eta cos i - cos t) / (eta cos i + cos t)
  *     s = (cos i - eta cos t) / (cos i + eta cos t)
  *     F = (p^2 + s^2) / 2                                        (A. Fresnel, 1823)
  *
- * for light of which half is polarised either way. If sin t would be above 1, all of it
- * is reflected: 1. sin^2 i is taken as (1 - cos i)(1 + cos i), of which no digits are
- * lost near cos i = 1. Near the critical angle F rises like a root, and is right to 1e-4
- * only. */
+ * for light that is polarised half one way, half the other. If sin t would be above 1,
+ * all of it is reflected: 1. sin^2 i is computed as (1 - cos i)(1 + cos i), which loses
+ * no digits near cos i = 1. Near the critical angle F rises like a root, and is right
+ * only to 1e-4. */
 #ifndef rt_fresnel
 static inline float rt_fresnel(float cosine, float eta)
 {
@@ -1904,13 +1913,13 @@ static inline float rt_fresnel(float cosine, float eta)
 #endif
 
 /* The direction in which the ray I, of length 1, goes on behind the surface; N is on the
- * side that it comes from, eta the index behind the surface over that before it:
+ * side that it comes from, eta the index behind the surface over the index before it:
  *
  *     T = I / eta + (cos i / eta - cos t) N.
  *
- * What lies in the surface shrinks by eta, which is Snell's law, and along -N comes as
- * much as length 1 needs. Returns false, and leaves *refracted alone, where there is no
- * such direction: total reflection. */
+ * The part along the surface shrinks by eta, which is Snell's law; the part along -N
+ * makes the length 1. Returns false, and leaves *refracted alone, where there is no such
+ * direction: total reflection. */
 #ifndef rt_refract
 static inline bool rt_refract(rt_vec3 incident, rt_vec3 normal, float eta,
                               rt_vec3 *refracted)
@@ -1925,10 +1934,10 @@ static inline bool rt_refract(rt_vec3 incident, rt_vec3 normal, float eta,
 }
 #endif
 
-/* e^-x for x >= 0, within 2e-7 of itself; 0 from x = 87 on, 1 for NaN. e^-x = 2^-k e^r,
- * where k is x / ln 2, rounded, and r, what is then left, is between -0.35 and 0.35. ln 2
- * is subtracted in two parts, of which the first is short, so that k times it is exact.
- * Why not expf: see rt_sincos, and the coefficients are from there, too (expf). */
+/* e^-x for x >= 0, with a relative error below 2e-7; 0 for x of 87 or more, 1 for NaN.
+ * e^-x = 2^-k e^r, where k is x / ln 2, rounded, and r is the rest, between -0.35 and
+ * 0.35. ln 2 is subtracted in two parts; the first is short, so that k times it is exact.
+ * rt_sincos says why this is not expf; the coefficients are also Cephes' (expf). */
 static inline float rt__exp_minus(float x)
 {
     if (!(x < 87.0f))
@@ -1950,8 +1959,8 @@ static inline float rt__exp_minus(float x)
     return e * power;
 }
 
-/* What is left of light after this distance in glass: exp(-absorption . distance), for
- * each channel (P. Bouguer, 1729; called Beer's law). */
+/* The part of light that is left after this distance in glass: exp(-absorption .
+ * distance), for each channel (P. Bouguer, 1729; called Beer's law). */
 static inline rt_vec3 rt_transmittance(rt_vec3 absorption, float distance)
 {
     return rt_vec(rt__exp_minus(absorption.x * distance),
@@ -1962,29 +1971,28 @@ static inline rt_vec3 rt_transmittance(rt_vec3 absorption, float distance)
 /* ====================================================================================
  * Chapter 12. Lamps with a size
  *
- * A lamp is a black body that shines. It has the same radiance wherever one sees it from,
- * and stands in the way of what is behind it, also of another lamp: so lamps should not
- * overlap.
+ * A lamp is a black body that shines. It has the same radiance from wherever it is seen,
+ * and hides what is behind it, even another lamp. So lamps should not overlap.
  * ==================================================================================== */
 
 typedef struct rt_lamp {
     rt_vec3 center;
     float radius;      /* of a ball, 1e-6 or more; 0: a parallelogram */
-    rt_vec3 intensity; /* I in W/sr per channel: from far away, or straight in front of a
-                          parallelogram, it lights like an rt_light of this intensity */
-    rt_vec3 u, v; /* if radius is 0: half of the two sides. Its corners are center +- u +-
-                     v; both of its faces shine */
+    rt_vec3 intensity; /* I in W/sr per channel: from far away, straight in front if it is
+                          a parallelogram, it lights like an rt_light of this intensity */
+    rt_vec3 u, v; /* if radius is 0: half of each of its two sides. The corners are center
+                     +- u +- v; both faces shine */
 } rt_lamp;
 
-/* The area of a parallelogram; in double, for the square of 1e30 is no float. */
+/* The area of a parallelogram; in double, since the square of 1e30 is no float. */
 static inline float rt__lamp_area(const rt_lamp *lamp)
 {
     const rt_dvec3 n = rt_dcross(rt_to_double(lamp->u), rt_to_double(lamp->v));
     return (float)(4.0 * sqrt(rt_ddot(n, n)));
 }
 
-/* The radiance of the lamp, from wherever one looks at it: L = I over the area that it
- * shows, pi R^2 for a ball. */
+/* The radiance of the lamp, from wherever it is seen: L = I over the area that it shows,
+ * pi R^2 for a ball. */
 static inline rt_vec3 rt_lamp_radiance(const rt_lamp *lamp)
 {
     const float area = lamp->radius > 0.0f ? 3.14159265359f * lamp->radius * lamp->radius
@@ -2007,7 +2015,7 @@ static inline float rt_meet_lamp(const rt_lamp *lamp, const rt_ray *ray, float t
     const rt_vec3 n = rt_normalize(rt_cross(lamp->u, lamp->v));
     const float toward = rt_dot(ray->direction, n);
     const float way = rt_dot(rt_sub(lamp->center, ray->origin), n);
-    if (!(1e-17f * fabsf(way) < fabsf(toward))) /* along the plane, or as good as */
+    if (!(1e-17f * fabsf(way) < fabsf(toward))) /* along the plane, or nearly so */
         return 0.0f;
     const float t = way / toward;
     if (!(t > 0.0f && t < t_max))
@@ -2019,8 +2027,8 @@ static inline float rt_meet_lamp(const rt_lamp *lamp, const rt_ray *ray, float t
     return met ? t : 0.0f;
 }
 
-/* The number of the nearest lamp that the ray meets before t_max, not counting the lamp
- * with number but; -1: none. */
+/* The number of the nearest lamp that the ray meets before t_max, except the lamp number
+ * but; -1: none. */
 static inline int rt__nearest_lamp(const rt_scene *scene, const rt_ray *ray, float t_max,
                                    int but)
 {
@@ -2035,13 +2043,13 @@ static inline int rt__nearest_lamp(const rt_scene *scene, const rt_ray *ray, flo
     return best;
 }
 
-/* From P a ball is seen under the angle a to either side of its centre, sin a = R / d. Of
- * all directions they are the part (1 - cos a) / 2. That difference is
+/* Seen from P, a ball reaches to the angle a on either side of its centre, sin a = R / d.
+ * It takes up the part (1 - cos a) / 2 of all directions. This difference is
  *
  *     1 - cos a = s / (1 + sqrt(1 - s)),        s = sin^2 a,
  *
- * where nothing is lost if the ball is small. Here it is 0 if P is inside the ball, or so
- * far away that it has no size any more. */
+ * where no digits are lost if the ball is small. The result is 0 if P is inside the ball,
+ * or so far away that the ball has no size any more. */
 static inline float rt__cap(const rt_lamp *lamp, rt_vec3 point)
 {
     const rt_vec3 to_center = rt_sub(lamp->center, point);
@@ -2082,11 +2090,11 @@ static inline rt_vec3 rt_sample_lamp(const rt_lamp *lamp, rt_vec3 point, float r
 #endif
 
 /* The density, per steradian, with which rt_sample_lamp chooses this direction, of length
- * 1, from P; it must be one that meets the lamp. 0: never.
+ * 1, from P; the direction must meet the lamp. 0: never.
  *
- * Of a ball 1 / (2 pi (1 - cos a)) with sin a = R / d. Of a parallelogram of area A,
- * d^2 / (A |cos b|): a square metre takes up less of the sphere of directions the farther
- * away it is, and the flatter it is seen, at the angle b. */
+ * For a ball it is 1 / (2 pi (1 - cos a)) with sin a = R / d. For a parallelogram of area
+ * A, seen at the angle b, it is d^2 / (A |cos b|): the farther away a square metre is, and
+ * the flatter it is seen, the less of the sphere of directions it takes up. */
 #ifndef rt_lamp_density
 static inline float rt_lamp_density(const rt_lamp *lamp, rt_vec3 point, rt_vec3 direction)
 {
@@ -2104,16 +2112,16 @@ static inline float rt_lamp_density(const rt_lamp *lamp, rt_vec3 point, rt_vec3 
 }
 #endif
 
-/* The weight of a direction that two ways of drawing might have found, for the one that
- * did: with density its own, with other the other's,
+/* The weight of a direction that either of two ways of drawing might have found. density
+ * is that of the way that did find it, other that of the other way:
  *
  *     w = density^2 / (density^2 + other^2).
  *
- * Each of the two counts with its weight, and both weights are 1 together: so nothing is
- * counted twice, and who is likelier to find a direction has more to say. That is
- * multiple importance sampling, with the power heuristic: E. Veach, L. Guibas, "Optimally
- * combining sampling techniques for Monte Carlo rendering", SIGGRAPH 1995. Squares of
- * floats may overflow; their ratio, where it counts, does not. */
+ * Each of the two counts with its weight, and the two weights add up to 1: nothing is
+ * counted twice, and the way that is likelier to find a direction counts for more. That
+ * is multiple importance sampling, with the power heuristic: E. Veach, L. Guibas,
+ * "Optimally combining sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
+ * Squares of floats may overflow; their ratio, where it counts, does not. */
 #ifndef rt_mis
 static inline float rt_mis(float density, float other)
 {
@@ -2128,18 +2136,18 @@ static inline float rt_mis(float density, float other)
  * Chapter 13. Gloss
  *
  * A rough surface is made of tiny mirrors, microfacets, that do not all face the same
- * way. The smoother it is, the more of them face along N, and the sharper is what it
- * shows.
+ * way. The smoother it is, the more of them face along N, and the sharper its reflections
+ * are.
  *
- * How many face which way is Trowbridge's and Reitz's choice (1975), called GGX since B.
+ * How many face which way follows T. Trowbridge and K. Reitz (1975), called GGX since B.
  * Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007:
  *
  *     D(h) = a^2 / (pi (<N,h>^2 (a^2 - 1) + 1)^2),        a^2 = 2 / (shininess + 2).
  *
- * The name shininess is that of the exponent in B. Phong, "Illumination for computer
+ * The name shininess comes from the exponent in B. Phong, "Illumination for computer
  * generated pictures", 1975. Along N there are as many facets here as in the lobe
- * (shininess + 2) / (2 pi) <N,h>^shininess. Why not Phong's lobe itself: at 60 degrees
- * half of the light is gone, whatever the exponent. See docs/13-gloss.md.
+ * (shininess + 2) / (2 pi) <N,h>^shininess. Phong's lobe itself loses half of the light
+ * at 60 degrees, whatever the exponent: see docs/13-gloss.md.
  * ==================================================================================== */
 
 static inline float rt__roughness2(float shininess)
@@ -2154,17 +2162,17 @@ static inline rt_vec3 rt__unit(rt_vec3 v)
     return rt_scale(v, dd > 1e-20f ? 1.0f / sqrtf(dd) : 0.0f);
 }
 
-/* The part G of the facets that is seen at this cosine to the normal, and not hidden by
- * others, is 2 cosine / this (B. Smith, 1967). */
+/* G, the part of the facets that is seen at this cosine to the normal and not hidden by
+ * others, is 2 cosine over this (B. Smith, 1967). */
 static inline float rt__hidden(float cosine, float a2)
 {
     return cosine + sqrtf(a2 + (1.0f - a2) * cosine * cosine);
 }
 
-/* A direction in which the gloss sends light to the eye, on from which the path goes:
- * that of a mirror whose normal is one of the facets that the eye sees, each as likely as
- * its share of the view. r1, r2 are uniform in (0, 1). It may point below the surface;
- * then the light goes nowhere.
+/* A direction from which the gloss sends light to the eye, in which the path goes on:
+ * that of a mirror which is one of the facets that the eye sees, each as likely as its
+ * share of the view. r1, r2 are uniform in (0, 1). It may point below the surface; then
+ * no light comes.
  *
  * The surface is stretched by 1/a (see above) along N, so that the facets become a
  * hemisphere; there the wanted normal is halfway between the eye and a uniform direction
@@ -2192,16 +2200,16 @@ static inline rt_vec3 rt_sample_gloss(rt_vec3 normal, rt_vec3 to_eye, float shin
 }
 #endif
 
-/* What part of the light from to_light, times <N,to_light>, the gloss sends to the eye,
- * as if each facet reflected all of it; per steradian, and all directions of length 1:
+/* The part of the light from to_light that the gloss sends to the eye, times <N,to_light>
+ * and per steradian, as if each facet reflected all of it. All directions have length 1:
  *
  *     D(h) G(eye) G(light) / (4 <N,eye>),         h halfway between the two,
  *     D(h) = a^2 / (pi (<N,h>^2 (a^2 - 1) + 1)^2),         a^2 = 2 / (shininess + 2),
  *     G(v) = 2 <N,v> / (<N,v> + sqrt(a^2 + (1 - a^2) <N,v>^2)),
  *
- * and in *density, that of rt_sample_gloss, the same without G(light). Both are 0 if one
- * of the two is below the surface. <N,h>^2 (a^2 - 1) + 1 is taken as |N x h|^2 + a^2
- * <N,h>^2, of which no digits are lost when a is small. */
+ * and in *density the density of rt_sample_gloss, which is the same without G(light).
+ * Both are 0 if eye or light is below the surface. <N,h>^2 (a^2 - 1) + 1 is computed as
+ * |N x h|^2 + a^2 <N,h>^2, which loses no digits when a is small. */
 #ifndef rt_gloss
 static inline float rt_gloss(rt_vec3 normal, rt_vec3 to_eye, rt_vec3 to_light,
                              float shininess, float *density)
@@ -2223,12 +2231,12 @@ static inline float rt_gloss(rt_vec3 normal, rt_vec3 to_eye, rt_vec3 to_light,
 typedef struct rt_brdf {
     rt_vec3 albedo;
     float shininess; /* 0: matt */
-    bool metal;      /* shininess above 0: all gloss, tinted by the albedo; else a matt
-                        body under a coat of clear lacquer */
+    bool metal;      /* shininess above 0: all gloss, tinted by the albedo. If false: a
+                        matt body under a coat of clear lacquer */
 } rt_brdf;
 
-/* What lacquer reflects straight from above, (1.5 - 1)^2 / (1.5 + 1)^2, and flatter: C.
- * Schlick's approximation of Fresnel's F, 1994. */
+/* What lacquer reflects of light straight from above, (1.5 - 1)^2 / (1.5 + 1)^2. For
+ * flatter light: C. Schlick's approximation of Fresnel's F, 1994. */
 #define RT__LACQUER 0.04f
 
 static inline float rt__fifth_power(float v)
@@ -2241,7 +2249,7 @@ static inline float rt__lacquer(float cosine)
     return RT__LACQUER + (1.0f - RT__LACQUER) * rt__fifth_power(1.0f - cosine);
 }
 
-/* With which probability the way on is drawn from the gloss, and not from the body. */
+/* The probability with which the way on is drawn from the gloss, not from the body. */
 static inline float rt__gloss_chance(const rt_brdf *brdf, rt_vec3 normal, rt_vec3 to_eye)
 {
     if (brdf->metal || !(brdf->shininess > 0.0f))
@@ -2250,11 +2258,12 @@ static inline float rt__gloss_chance(const rt_brdf *brdf, rt_vec3 normal, rt_vec
     return f + 0.25f * (1.0f - f);
 }
 
-/* What part of the light from to_light, times <N,to_light>, is sent to the eye, per
- * steradian and channel; and in *density, with which rt_sample_brdf chooses to_light.
+/* The part of the light from to_light that is sent to the eye, times <N,to_light>, per
+ * steradian and channel; and in *density the one with which rt_sample_brdf chooses
+ * to_light.
  *
- * Of metal albedo . gloss. Of lacquer F . gloss, where F is that of the facets, plus the
- * body, which has what got through the lacquer twice:
+ * For metal it is albedo . gloss. For lacquer it is F . gloss, with F of the facets, plus
+ * the body, whose light gets through the lacquer twice:
  *
  *     albedo / pi . 1.05 (1 - 0.04) (1 - (1 - <N,eye>)^5) (1 - (1 - <N,light>)^5)
  *
@@ -2286,8 +2295,8 @@ static inline rt_vec3 rt_scatter(const rt_brdf *brdf, rt_vec3 normal, rt_vec3 to
     return rt_add(rt_scale(brdf->albedo, body), rt_vec(coat, coat, coat));
 }
 
-/* A direction to go on in, drawn with the density above from r1, r2 in (0, 1). Which of
- * the two, r1 decides, and what is left of it serves once more. */
+/* A direction to go on in, drawn with the density above from r1, r2 in (0, 1). r1 decides
+ * between gloss and body, and what is left of it is used again. */
 static inline rt_vec3 rt_sample_brdf(const rt_brdf *brdf, rt_vec3 normal, rt_vec3 to_eye,
                                      float r1, float r2)
 {
@@ -2304,7 +2313,7 @@ static inline rt_vec3 rt_sample_brdf(const rt_brdf *brdf, rt_vec3 normal, rt_vec
 /* A lens in the place of the pinhole. */
 typedef struct rt_lens {
     float radius; /* of its opening; 0: a pinhole */
-    float focus;  /* above 0: how far away, along the axis, is the plane that is sharp */
+    float focus;  /* above 0: how far away, along the axis, the sharp plane is */
 } rt_lens;
 
 /* rt_lens_ray, see below, of a camera with this film. */
@@ -2331,10 +2340,11 @@ static inline rt_ray rt__film_lens_ray(const rt__film *film, const rt_lens *lens
  * r1, r2 are uniform in (0, 1).
  *
  * A thin lens sends all rays from one point of the sharp plane to one point of the film,
- * wherever they go through it; and the ray through its middle goes straight on. So the
- * pinhole's ray tells which point it is, and the ray from any other point of the lens
- * goes there, too. Points of the lens are uniform on a disc: its radius times sqrt(r2),
- * in the direction r1. What is off the plane is seen by each of them in another place. */
+ * wherever they go through the lens; and the ray through its middle goes straight on. So
+ * the pinhole's ray tells which point that is, and the ray from any other point of the
+ * lens goes there, too. Points of the lens are uniform on a disc: its radius times
+ * sqrt(r2), in the direction r1. Each of them sees what is off the plane in another
+ * place. */
 #ifndef rt_lens_ray
 static inline rt_ray rt_lens_ray(const rt_camera *camera, const rt_lens *lens,
                                  const rt_ray *pinhole, float r1, float r2)
@@ -2350,11 +2360,11 @@ static inline float rt__at_most(float v, float most)
     return v > 0.0f ? v < most ? v : most : 0.0f;
 }
 
-/* The light that comes from where nothing is hit: the background, or in its place the sky
- * in that direction. scene->sky may be any function of a unit vector; what it returns is
- * radiance in linear RGB, and counts as 0 where it is negative or NaN, as 1e15 where it
- * is more. It is called on many threads at once. What is small and bright, as the sun,
- * had better be an rt_lamp far away, for which rays can aim. */
+/* The light where nothing is hit: the background, or in its place the sky in that
+ * direction. scene->sky may be any function of a unit vector. It returns radiance in
+ * linear RGB; negative values and NaN count as 0, values above 1e15 as 1e15. It is called
+ * on many threads at once. Make what is small and bright, like the sun, an rt_lamp far
+ * away, at which rays can aim. */
 static inline rt_vec3 rt_sky(const rt_scene *scene, rt_vec3 direction)
 {
     if (!scene->sky)
@@ -2367,10 +2377,9 @@ static inline rt_vec3 rt_sky(const rt_scene *scene, rt_vec3 direction)
 /* ====================================================================================
  * Chapter 15. Patterns
  *
- * A pattern is an albedo that depends on where one looks: a function of the point, which
- * is the whole chapter. It is called on many threads at once. What it returns counts as 0
- * where it is negative or NaN, and as 1 where it is more: a surface sends back no light
- * that it did not get.
+ * A pattern is an albedo that depends on the place: a function of the point. That is the
+ * whole chapter. The function is called on many threads at once. Negative values and NaN
+ * count as 0, values above 1 as 1: a surface sends back no light that it did not get.
  * ==================================================================================== */
 
 static inline rt_vec3 rt_albedo(const rt_surface *surface, const rt_hit *hit)
@@ -2386,14 +2395,15 @@ static inline rt_vec3 rt_albedo(const rt_surface *surface, const rt_hit *hit)
  * Chapter 16. Triangles
  * ==================================================================================== */
 
-/* A mesh of triangles: what a model from a file consists of. The arrays are yours. Of
- * one triangle three corners A, B, C count, so neighbours share positions, and a corner
- * that moves takes all of its triangles along. A mesh of several materials is several
- * meshes. */
+/* A mesh of triangles: what a model from a file consists of. The arrays are yours. A
+ * triangle names its corners A, B, C by number, so neighbours share positions, and a
+ * corner that moves takes all of its triangles along. A model of several materials is
+ * several meshes. */
 typedef struct rt_mesh {
     const rt_vec3 *positions;
-    const int *indices; /* three for each triangle, into positions: A, B, C, as seen from
-                           outside counterclockwise (only glass asks for the side) */
+    const int *indices; /* three for each triangle, into positions: A, B, C,
+                           counterclockwise as seen from outside (only glass asks for the
+                           side) */
     int position_count, triangle_count;
     rt_material material;
 } rt_mesh;
@@ -2417,7 +2427,7 @@ static inline rt__corners rt__corners_of(const rt_mesh *mesh, int triangle)
     return corners;
 }
 
-/* (B - A) x (C - A): across the triangle, to its outside, twice its area long. */
+/* (B - A) x (C - A): perpendicular to the triangle, outward, twice its area long. */
 static inline rt_dvec3 rt__across(const rt__corners *corners)
 {
     const rt_dvec3 a = rt_to_double(corners->a);
@@ -2434,13 +2444,13 @@ static inline rt_vec3 rt__blend(const rt__corners *corners, rt_dvec3 weights)
 }
 
 #ifndef rt_hit_triangle
-/* The world as the ray sees it: its start is the origin, and the ray is the axis z. The
+/* The world as the ray sees it: its start is the origin, and the ray is the z axis. The
  * axis along which u is longest becomes z; then a shear, which moves every point sideways
  * in proportion to its z, straightens the ray:
  *
  *     x = p_x - (u_x / u_z) p_z,     y = p_y - (u_y / u_z) p_z
  *
- * of p, the way to the point from where the ray starts. Now the ray meets what is at
+ * where p is the way to the point from the start of the ray. Now the ray meets what is at
  * x = y = 0. */
 typedef struct rt__shear {
     rt_vec3 origin;
@@ -2448,7 +2458,7 @@ typedef struct rt__shear {
     double x, y, z; /* u_x / u_z, u_y / u_z, 1 / u_z; z 0: no direction */
 } rt__shear;
 
-/* v with its coordinates moved round, so that the axis comes last. */
+/* v with its coordinates rotated so that the axis comes last. */
 static inline rt_dvec3 rt__turned(rt_vec3 v, int axis)
 {
     const rt_dvec3 d = rt_to_double(v);
@@ -2483,10 +2493,10 @@ static inline bool rt__beside(double a, double b, double c)
 }
 
 /* The t at which the ray meets the triangle A, B, C, or 0; and in *weights how much of
- * each corner is in P, times any number.
+ * each corner is in P, up to a common factor.
  *
  * Seen along the ray, the triangle is flat, and the ray is the point (0,0). On which side
- * of the edge from A to B does it lie? That tells the sign of
+ * of the edge from A to B does it lie? The answer is the sign of
  *
  *     w_C = B_x A_y - B_y A_x,
  *
@@ -2497,16 +2507,16 @@ static inline bool rt__beside(double a, double b, double c)
  *
  * Nothing gets through between two triangles, not even where a ray meets their common
  * edge or corner. For each corner is sheared once, to the same numbers in every triangle
- * that it belongs to. Of the common edge both compute the same two products, so one has w
- * where the other has -w. Rounded products are in the order of the exact ones or equal,
- * so w has the right sign or is 0. And 0 counts as inside. (A compiler that contracts
- * a*b-c*d rounds only one of the products: one more reason for -ffp-contract=off.) In
- * float that would do against holes, too, but a ray next to an edge would often get the
- * wrong neighbour; hence double.
+ * that it belongs to. For the common edge both triangles compute the same two products,
+ * so one has w where the other has -w. Rounded products are in the order of the exact
+ * ones or equal, so w has the right sign or is 0. And 0 counts as inside. (A compiler
+ * that contracts a*b-c*d rounds only one of the products: one more reason for
+ * -ffp-contract=off.) Float would prevent holes just as well, but a ray next to an edge
+ * would often get the wrong neighbour; hence double.
  *
- * Seen almost from its edge, a triangle is almost a line, and for points far out on that
- * line w is 0 by rounding, too. So where a w is 0, (0,0) must also be between the corners
- * in x and in y. That opens no hole, for what is in the triangle is.
+ * Seen almost edge-on, a triangle is almost a line, and far out on that line rounding can
+ * also make w 0. So where a w is 0, (0,0) must also be between the corners in x and in y.
+ * That opens no hole, since all points in the triangle are.
  *
  * Method: S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT
  * 2(1), 2013. */
@@ -2522,7 +2532,7 @@ static inline double rt__meet_corners(const rt__shear *shear, const rt__corners 
     if ((w_a < 0.0 || w_b < 0.0 || w_c < 0.0) && (w_a > 0.0 || w_b > 0.0 || w_c > 0.0))
         return 0.0;
     const double sum = w_a + w_b + w_c;
-    if (!(sum != 0.0)) /* seen from the edge, or no area */
+    if (!(sum != 0.0)) /* seen edge-on, or no area */
         return 0.0;
     if ((w_a == 0.0 || w_b == 0.0 || w_c == 0.0) &&
         (rt__beside(a.x, b.x, c.x) || rt__beside(a.y, b.y, c.y)))
@@ -2536,7 +2546,7 @@ static inline double rt__meet_corners(const rt__shear *shear, const rt__corners 
 }
 
 /* The hit at t, with these weights. P is the mean of the corners, in double and rounded
- * once: so it is as good from afar as from near. The normal is that of the flat
+ * once, so it is as good from afar as from near. The normal is that of the flat
  * triangle. */
 static inline void rt__hit_corners(const rt__corners *corners, const rt_ray *ray,
                                    double t, rt_dvec3 weights, rt_hit *hit)
@@ -2552,11 +2562,11 @@ static inline void rt__hit_corners(const rt__corners *corners, const rt_ray *ray
     hit->v = (float)w.z;
 }
 
-/* The point of the triangle on the ray, if 0 < t < t_max. See above how it is found;
- * hit->part is its number, and P = (1 - u - v) A + u B + v C.
+/* The point of the triangle on the ray, if 0 < t < t_max, found as above; hit->part is
+ * the triangle's number, and P = (1 - u - v) A + u B + v C.
  *
  * Returns false, and leaves *hit alone, on a miss. A triangle without area, one that is
- * seen exactly from the edge, NaN and infinity are misses. */
+ * seen exactly edge-on, NaN and infinity are misses. */
 static inline bool rt_hit_triangle(const rt_mesh *mesh, int triangle, const rt_ray *ray,
                                    float t_max, rt_hit *hit)
 {
@@ -2577,14 +2587,15 @@ static inline bool rt_hit_triangle(const rt_mesh *mesh, int triangle, const rt_r
  * Chapter 17. Your own shape
  *
  * All that the rest asks of a shape is the question of chapter 1: where does this ray
- * meet it first? So whoever can answer that has a new shape: a function, and a box around
- * it for the tree.
+ * meet it first? Whatever answers that is a new shape: a function, and a box around it
+ * for the tree.
  * ==================================================================================== */
 
 /* The first point of your shape on the ray with 0 < t < t_max, as rt_hit_sphere finds it
- * for a sphere. On a hit it sets t, point and normal, which must point outward, of any
- * length, and returns true; it may set part, u and v to what it likes. data is the
- * shape's. The direction has any length. It is called on many threads at once. */
+ * for a sphere. On a hit it sets t, point and normal, and returns true; the normal must
+ * point outward, and may have any length. It may set part, u and v to what it likes. data
+ * is the shape's. The ray's direction may have any length. It is called on many threads
+ * at once. */
 typedef bool rt_hit_function(const void *data, const rt_ray *ray, float t_max,
                              rt_hit *hit);
 
