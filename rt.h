@@ -740,7 +740,7 @@ typedef struct rt_scene {
     int box_count;
     const rt_light *lights;
     int light_count;
-    rt_vec3 background; /* the light where nothing is hit; 0 is black */
+    rt_vec3 background;       /* the light where nothing is hit; 0 is black */
     const struct rt_bvh *bvh; /* for many shapes, see chapter 8; NULL: rt_intersect and
                                  rt_occluded ask each of them */
     /* The rest is for part two, chapters 11 to 17; all zero, it changes nothing. */
@@ -1355,7 +1355,7 @@ typedef struct rt_bvh {
     int *triangles_before; /* ... each mesh and after the last, or NULL: few meshes */
     void *memory;          /* where nodes and rows lie */
     rt__search_function *search; /* NULL, or that of the last section */
-    struct rt_path *path; /* NULL, or where rt_trace_pixel notes what is asked */
+    struct rt_path *path;        /* NULL, or where rt_trace_pixel notes what is asked */
 } rt_bvh;
 
 /* 1/u, but finite for u = 0: so large that what is outside stays outside. */
@@ -2606,7 +2606,7 @@ typedef struct rt_custom_shape {
     const void *data; /* handed to it */
 } rt_custom_shape;
 
-/* The box, larger by a thousandth of its longest side: so tight boxes do no harm. */
+/* The box, larger by a thousandth of its longest side, so that tight boxes do no harm. */
 static inline void rt__loosen(const rt_custom_shape *shape, rt_vec3 *low, rt_vec3 *high)
 {
     const rt_vec3 size = rt_sub(shape->max, shape->min);
@@ -2618,11 +2618,11 @@ static inline void rt__loosen(const rt_custom_shape *shape, rt_vec3 *low, rt_vec
 }
 
 /* Ask the shape's function, and complete its answer: the normal becomes a unit vector on
- * the side that the ray comes from. Whether that is the inside, says hit->inside.
+ * the side that the ray comes from, and hit->inside tells whether that is the inside.
  *
- * Returns false, and leaves *hit alone, on a miss. An answer that makes no sense is one:
- * t not between 0 and t_max, no normal, a point that sticks out of the box by more than a
- * thousandth of its longest side, for the tree would not find it there. */
+ * Returns false, and leaves *hit alone, on a miss. An answer that makes no sense is a
+ * miss: t not between 0 and t_max, no normal, or a point outside the box by more than a
+ * thousandth of its longest side, where the tree would not find it. */
 static inline bool rt_hit_custom_shape(const rt_custom_shape *shape, const rt_ray *ray,
                                        float t_max, rt_hit *hit)
 {
@@ -2652,8 +2652,8 @@ static inline bool rt_hit_custom_shape(const rt_custom_shape *shape, const rt_ra
  * rt_intersect, ask every triangle; they count spheres, boxes, the triangles of the first
  * mesh, of the second, ..., custom shapes. */
 
-/* How many triangles all meshes have, and how many of those numbers there are: what does
- * not fit an int counts as INT_MAX. */
+/* How many triangles all meshes have, and how many of those numbers there are. More than
+ * fits an int counts as INT_MAX. */
 static inline int rt__triangle_count(const rt_scene *scene)
 {
     int64_t count = 0;
@@ -2669,7 +2669,8 @@ static inline int rt__primitive_count(const rt_scene *scene)
     return count < INT_MAX ? (int)count : INT_MAX;
 }
 
-/* Whose number that is: mesh and triangle, or mesh == scene->mesh_count and custom shape.
+/* What such a number stands for: mesh and triangle, or mesh == scene->mesh_count and
+ * custom shape.
  */
 typedef struct rt__other {
     int mesh, part;
@@ -2729,11 +2730,11 @@ static inline float rt__meet_other(const rt_scene *scene, int number, const rt_r
     return rt__meet_one(scene, rt__other_of(scene, number), ray, t_max);
 }
 
-/* P drawn in from the edges of its triangle, by 4 steps of rt_leave, or less in a tiny
+/* P, moved in from the edges of its triangle by 4 steps of rt_leave, or less in a tiny
  * triangle. In a corner between two walls rt_leave steps along the normal of one of them.
- * If they meet at less than a right angle, that leads towards the other, and close to the
- * edge through it: the path would be outside of a closed mesh. From 4 steps away that
- * does not happen down to 14 degrees, whose cotangent is 4. */
+ * If they meet at less than a right angle, the step leads towards the other wall and,
+ * close to the edge, through it: the path would be outside a closed mesh. From 4 steps
+ * away that cannot happen down to 14 degrees, whose cotangent is 4. */
 static inline void rt__draw_in(const rt__corners *corners, rt_hit *hit)
 {
     const rt_dvec3 a = rt_to_double(corners->a);
@@ -2762,8 +2763,8 @@ static inline void rt__draw_in(const rt__corners *corners, rt_hit *hit)
     hit->point = rt__blend(corners, rt_dscale(w, 1.0 / (w.x + w.y + w.z)));
 }
 
-/* The number of the nearest of them, of the first of several at the same t; or if any
- * will do, of any; or -1. */
+/* The number of the nearest of them (of several at the same t, the first), or of any if
+ * any will do; or -1. */
 static inline int rt__nearest_other(const rt_scene *scene, const rt_ray *ray, float t_max,
                                     bool any)
 {
@@ -2812,7 +2813,7 @@ static inline bool rt__hit_other(const rt_scene *scene, int number, const rt_ray
     return true;
 }
 
-/* Of the shape with this rt_hit.shape. */
+/* The material of the shape with this rt_hit.shape. */
 static inline const rt_material *rt__material_of(const rt_scene *scene, int shape)
 {
     const int box = shape - scene->sphere_count, mesh = box - scene->box_count;
@@ -2861,8 +2862,8 @@ static inline rt_brdf rt__brdf_of(const rt_surface *surface, const rt_hit *hit)
     return brdf;
 }
 
-/* A ray meets glass: the refractive index behind the surface over that before it. If it
- * comes from inside, *throughput loses what the glass has absorbed. */
+/* A ray meets glass: the refractive index behind the surface over the index before it. If
+ * the ray comes from inside, *throughput loses what the glass has absorbed. */
 static inline float rt__meet_glass(const rt_scene *scene, const rt_surface *surface,
                                    const rt_hit *hit, rt_vec3 *throughput, bool *inside)
 {
@@ -2887,9 +2888,9 @@ static inline rt_vec3 rt__glossy_point(const rt_brdf *brdf, rt_vec3 normal,
     return rt_scale(rt_mul(f, intensity), 1.0f / dd);
 }
 
-/* Tell rt_trace_pixel, if it listens, what the ray has met and what light that gives;
- * what came of the last question for a light or, light being -1, for a lamp; and how the
- * path goes on. They are at the end. */
+/* These tell rt_trace_pixel, if it listens, what the ray has met and what light that
+ * gives; the answer to the last question for a light or, if light is -1, for a lamp; and
+ * how the path goes on. They are defined at the end. */
 static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, int lamp,
                                    rt_vec3 light, float weight);
 static inline void rt__note_light(const rt_scene *scene, int light, int lamp, rt_vec3 end,
@@ -2913,7 +2914,7 @@ static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit
         if (!(rt_dot(hit->normal, to_light) > 0.0f))
             continue;
         rng->rays++;
-        rt_ray way; /* on which no lamp may stand, either */
+        rt_ray way; /* no lamp may stand in it, either */
         way.origin = hit->point;
         way.direction = to_light;
         rt_vec3 sent = rt_vec(0.0f, 0.0f, 0.0f);
@@ -2930,8 +2931,8 @@ static inline rt_vec3 rt__direct_points(const rt_scene *scene, const rt_hit *hit
     return sum;
 }
 
-/* The same for the lamps that have a size: to each of them one direction, with the weight
- * that rt_mis gives it, since rt_sample_brdf might have found it, too. */
+/* The same for lamps with a size: one direction to each of them, weighted by rt_mis,
+ * since rt_sample_brdf might have found it, too. */
 static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
                                        const rt_brdf *brdf, rt_vec3 to_eye, rt_rng *rng)
 {
@@ -2941,7 +2942,7 @@ static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
         const float r1 = rt_random(rng);
         const float r2 = rt_random(rng);
         const rt_vec3 end = rt_sample_lamp(lamp, hit->point, r1, r2);
-        rt_ray way; /* on which no other lamp may stand, either */
+        rt_ray way; /* no other lamp may stand in it, either */
         way.origin = hit->point;
         way.direction = rt_sub(end, hit->point);
         const rt_vec3 toward = rt__unit(way.direction);
@@ -2965,30 +2966,30 @@ static inline rt_vec3 rt__direct_lamps(const rt_scene *scene, const rt_hit *hit,
     return sum;
 }
 
-/* rt_radiance, with all of part two: the light that comes back along the ray, whose
- * direction must have length 1, an estimate from one path. Without surfaces, lamps and
- * sky it has the bits of rt_radiance.
+/* rt_radiance, with all of part two: the light that comes back along the ray, estimated
+ * from one path. The ray's direction must have length 1. Without surfaces, lamps and sky
+ * the result has the bits of rt_radiance.
  *
- * A ray that meets glass has one question too many, for part of the light comes from the
- * reflection and part from behind: F and 1 - F. It asks one of the two, by a throw of a
- * coin that shows "reflected" with probability F. So both need no factor.
+ * Where a ray meets glass, the part F of the light comes from the reflection and 1 - F
+ * from behind. The path follows one of the two: it tosses a coin that shows "reflected"
+ * with probability F. So neither needs a factor.
  *
- * A lamp may be found in two ways: a surface aims at it, and a path meets it by chance.
- * Both are needed, and rt_mis says how much each counts. After a camera, a mirror or
- * glass the direction left no choice, so nobody could have aimed: all of it counts. So
- * that both ways find light after as many bounces, one more ray is sent after the last
- * bounce, for lamps and emission only.
+ * A lamp may be found in two ways: a surface aims at it, or a path meets it by chance.
+ * Both are needed, and rt_mis says how much each counts. After the camera, a mirror or
+ * glass there was no choice of direction, so nobody could have aimed: the lamp counts in
+ * full. One more ray is sent after the last bounce, for lamps and emission only; so both
+ * ways find light after the same number of bounces.
  *
  * bounces are as in rt_radiance; a surface of glass counts as one, so a ray needs two to
- * get through a ball. A pair of random numbers is drawn for each lamp at each surface
- * that aims, then one for the way on. Shadow rays do not go through glass: the light
- * behind it, a caustic, is found by chance, and of an rt_light never.
+ * get through a ball. Each surface that aims draws a pair of random numbers for each
+ * lamp, then one for the way on. Shadow rays do not go through glass: the light behind
+ * it, a caustic, is found only by chance, and that of an rt_light never.
  *
- * Radiance within glass is eta^2 of what it is outside. That factor is left out, for it
- * cancels when the path leaves the glass; a camera inside sees all too dark by it. Shapes
- * of glass must not overlap or touch: a ray that is inside one knows of no other. What
- * else is inside is seen without the absorption of the glass before it. A flat box of
- * glass has no inside: it bends a ray, and nothing bends it back. */
+ * Radiance within glass is eta^2 of what it is outside. That factor is left out, since it
+ * cancels when the path leaves the glass; to a camera inside everything is too dark by
+ * it. Shapes of glass must not overlap or touch: a ray inside one knows of no other.
+ * Other shapes inside the glass are seen without the absorption of the glass before them.
+ * A flat box of glass has no inside: it bends a ray, and nothing bends it back. */
 static inline rt_vec3 rt_radiance_mis(const rt_scene *scene, const rt_ray *camera_ray,
                                       int bounces, rt_rng *rng)
 {
@@ -3089,7 +3090,7 @@ static inline rt_vec3 rt_radiance_mis(const rt_scene *scene, const rt_ray *camer
 }
 
 /* rt_first_look, with all of part two: the first surface that is no mirror and no glass.
- * Through glass it looks straight on, or where that cannot be, along the reflection.
+ * Through glass it looks straight on or, where that is impossible, along the reflection.
  * direct is what has little noise: lights that are points, and what shines by itself. */
 static inline rt_guide rt__first_look_mis(const rt_scene *scene, const rt_ray *camera_ray,
                                           int bounces, rt_rng *rng)
@@ -3146,28 +3147,30 @@ static inline rt_guide rt__first_look_mis(const rt_scene *scene, const rt_ray *c
 
 /* A picture of linear RGB, row by row from the top: pixel (x, y) is pixels[y * width +
  * x]. The memory is yours, width * height vectors; it need not be cleared. At any time a
- * pixel holds the mean of its samples so far, and rt_render adds to them: before another
- * picture goes into the same memory, call rt_image_clear, else the two are mixed. */
+ * pixel holds the mean of its samples so far, and rt_render adds to them. Call
+ * rt_image_clear before another picture goes into the same memory; otherwise the two are
+ * mixed. */
 typedef struct rt_image {
     int width, height;
     rt_vec3 *pixels;
-    int samples; /* how many samples every pixel has */
-    int done;    /* how many pixels, from the first on, have one more (after a cancel, or
-                    when the time was over) */
+    int samples;   /* how many samples every pixel has */
+    int done;      /* how many pixels, counted from the first, have one more (after a
+                    cancel, or when time ran out) */
     uint64_t rays; /* how many rays were traced for it, camera and shadow rays included */
     rt_vec3 *half; /* NULL, or as many vectors again, for the mean of every second sample:
-                      then the error can be estimated, see rt_image_error. Not to be added
-                      or taken away while samples or done are above 0 */
-    rt_vec3 *rest; /* NULL, or as many vectors again, with half twice as many, for what is
-                      left when the means are rounded. Means of more than some thousands
-                      of samples need it, see rt_render. To be added or taken away as half
-                      is */
+                      then rt_image_error can estimate the error. Do not add it or take it
+                      away while samples or done are above 0 */
+    rt_vec3 *rest; /* NULL, or as many vectors again (with half, twice as many), for what
+                      is lost when the means are rounded. Means of more than some
+                      thousands of samples need it, see rt_render. Add or take it away
+                      only as half */
     rt_guide *guides; /* NULL, or one for each pixel, for what rt_denoise wants to know:
-                      means over the same samples. To be added or taken away as half is */
-    int first, count; /* 0, 0: the whole picture. Else it is a part, and all the memory is
-                         for count pixels, those of the picture from number first on:
-                         pixel (x, y) is number y * width + x. Parts that were rendered
-                         apart, on any machine, have together the bits of the whole */
+                      means over the same samples. Add or take them away only as half */
+    int first, count; /* 0, 0: the whole picture. Otherwise a part, and all the memory is
+                         for only count pixels of the picture, starting at number first;
+                         pixel (x, y) has number y * width + x. Parts that are rendered
+                         separately, on any machines, together have the bits of the
+                         whole */
 } rt_image;
 
 /* Begin a new picture in the same memory. */
@@ -3184,33 +3187,33 @@ typedef enum rt_sampler {
 
 /* How to render. Zero everywhere is valid. */
 typedef struct rt_options {
-    int samples;   /* per pixel, to be added to those the image has; 0 means 16, or with
-                      error or seconds as many as they allow */
+    int samples;   /* per pixel, on top of those the image has; 0 means 16, or with error
+                      or seconds as many as they allow */
     int bounces;   /* see rt_radiance; 0 is direct light only, RT_ALL_BOUNCES all light */
     int threads;   /* 1 to 1024; 0 means as many as OpenMP offers */
     uint32_t seed; /* another seed, another noise */
 
     /* Called on the thread that called rt_render, soon after the start and then every 15
-     * ms or so, also during a path that takes longer. No thread writes to the image
-     * meanwhile: it may be read. part goes from 0 to 1. Return false to stop; what the
-     * threads have begun is finished before. It must come back: no longjmp, no C++
-     * exception out of it, for threads and memory would be lost. */
+     * ms or so, even during a path that takes longer. No thread writes to the image
+     * meanwhile, so you may read it. part goes from 0 to 1. Return false to stop; the
+     * threads first finish what they have begun. It must return: a longjmp or C++
+     * exception out of it would lose threads and memory. */
     bool (*progress)(void *user, float part);
     void *user; /* handed to progress */
 
     rt_sampler sampler; /* where the numbers come from */
-    float error;        /* stop when rt_image_error is down to this, after 16 more samples
-                           and then whenever there are an eighth more; the image needs
-                           half; 0: never */
-    float seconds;      /* stop after this time, with at least one sample; 0: never. (The
-                           processor's time without OpenMP, if the C library is older than
-                           C11 or told to be) */
-    int lanes; /* rays that rt_render traces at a time: 1, as the chapters do, or all that
-                  rt_lane_count(0) has; 0: all. The same picture */
-    rt_lens lens; /* chapter 14; radius 0: a pinhole */
+    float error;        /* stop when rt_image_error is down to this; it is asked after 16
+                           more samples, then whenever there are an eighth more. The image
+                           needs half. 0: never */
+    float seconds;      /* stop after this time, with at least one sample; 0: never.
+                           (Without OpenMP it is processor time if the C library is older
+                           than C11, or told to be) */
+    int lanes;          /* rays that rt_render traces at a time: 1, as the chapters do, or
+                  rt_lane_count(0); 0 means the latter. The picture is the same */
+    rt_lens lens;       /* chapter 14; radius 0: a pinhole */
 } rt_options;
 
-/* How it went; rt_status_text says it in words. */
+/* How it went; rt_status_text puts it in words. */
 typedef enum rt_status {
     RT_OK,
     RT_CANCELLED,
@@ -3239,34 +3242,34 @@ typedef enum rt_status {
     RT_BAD_CUSTOM_SHAPE
 } rt_status;
 
-/* The colour seen through the point (x, y) of the film, an estimate with the numbers of
- * *rng; context is the caller's. Called on many threads at once. */
+/* The colour seen through the point (x, y) of the film, estimated with the random numbers
+ * of *rng; context is the caller's. Called on many threads at once. */
 typedef rt_vec3 rt_pixel_function(const void *context, float x, float y, rt_rng *rng);
 
-/* Add options->samples samples to every pixel of the image: a random point in the square
- * of the pixel, the ray of the camera through it, rt_radiance along the ray (in part two
- * rt_lens_ray and rt_radiance_mis), and the mean. options may be NULL: all defaults. An
- * empty scene gives the background, a scene without lights the part of it that arrives. A
- * scene without a bvh gets one for the time of the call; build it yourself if you render
- * many shapes again and again.
+/* Add options->samples samples to every pixel of the image. A sample takes a random point
+ * in the square of the pixel, the camera's ray through it, and rt_radiance along the ray
+ * (in part two rt_lens_ray and rt_radiance_mis); the pixel is their mean. options may be
+ * NULL: all defaults. An empty scene shows the background, a scene without lights the
+ * part of the background that arrives. A scene without a bvh gets one for the duration of
+ * the call; build it yourself if you render many shapes again and again.
  *
- * A mean of floats drifts: where most samples are dark and few bright, each dark one is
- * rounded the same way, and of 2^18 samples the mean may be wrong by 0.5 %, of 2^25 by 5
- * %. With image->rest it is right to 1e-6, at 12 bytes more for each pixel, 24 with half.
- * A call for more than 4096 samples borrows that much from RT_MALLOC while it runs; lend
- * it if so many are to come in several calls.
+ * A mean of floats drifts: where most samples are dark and few are bright, each dark one
+ * is rounded the same way. The mean of 2^18 samples may be wrong by 0.5 %, that of 2^25
+ * by 5 %. With image->rest it is right to 1e-6, for 12 more bytes per pixel, 24 with
+ * half. A call for more than 4096 samples borrows that much from RT_MALLOC while it runs;
+ * set rest yourself if so many samples come in several calls.
  *
- * RT_OK when all samples are done, or the wanted error is reached, or the time is over.
+ * RT_OK when all samples are done, or the wanted error is reached, or time is up.
  * RT_CANCELLED if progress returned false before that: the image holds what was done by
- * then, and the same call with what is left of the samples goes on from there, to the
- * same bits as without the stop (where rest is borrowed, to the same but for a rounding).
- * On any other status the image is untouched; for a bad shape or light, rt_check_scene
- * tells which. */
+ * then. The same call with the remaining samples goes on from there, and gives the same
+ * bits as without the stop (where rest is borrowed, the same but for a rounding). On any
+ * other status the image is untouched; for a bad shape or light, rt_check_scene tells
+ * which. */
 RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
                           const rt_options *options, rt_image *image);
 
-/* The same loop over pixels, samples and threads with a function of your own in place of
- * camera ray and rt_radiance. options->bounces and lanes are not looked at. */
+/* The same loop over pixels, samples and threads, with a function of your own in place of
+ * camera ray and rt_radiance. options->bounces and lanes are ignored. */
 RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
                                  const rt_options *options, rt_image *image);
 
@@ -3274,46 +3277,46 @@ RTDEF rt_status rt_render_pixels(rt_pixel_function *pixel, const void *context,
  *
  *     sqrt(mean of variance over pixels and channels) / mean of the image,
  *
- * so 0.01 means that a pixel is off by a hundredth of the mean brightness, typically. If
+ * so 0.01 means that a pixel is typically off by a hundredth of the mean brightness. If
  * the even samples, with mean A, and the odd ones are independent, each pixel of mean M
- * tells its variance: (A - M)^2 n_even / n_odd. One pixel tells little, thousands tell it
- * well. With image->half, rt_render keeps A there and takes even and odd samples from two
- * sequences of their own. (That costs a little: with RT_SOBOL each half is even in
- * itself, both together less so.) Error from too few bounces is not noise and not in it.
- * 0 for a black image, INFINITY, that is unknown, with less than 2 samples or without
- * half. */
+ * tells its variance: (A - M)^2 n_even / n_odd. One pixel tells little, thousands tell
+ * much. With image->half, rt_render keeps A there and draws even and odd samples from
+ * separate sequences. (That costs a little: with RT_SOBOL each half is evenly spread,
+ * both together less so.) Error from too few bounces is not noise, and not included. The
+ * result is 0 for a black image, and INFINITY (unknown) with less than 2 samples or
+ * without half. */
 RTDEF float rt_image_error(const rt_image *image);
 
 /* Finish a picture of few samples (chapter 10): result->pixels becomes the image without
- * most of its noise. The image must have half and guides, and two samples at least; it
- * stays as it is, so rendering may go on. threads as in rt_options. The same bits on
- * every machine and for any number of threads. While it works it borrows 88 bytes for
- * each pixel from RT_MALLOC.
+ * most of its noise. The image must have half and guides, and at least two samples; it
+ * stays as it is, so rendering may go on. threads is as in rt_options. The bits are the
+ * same on every machine and for any number of threads. Meanwhile it borrows 88 bytes per
+ * pixel from RT_MALLOC.
  *
  * result is an image of the same size with pixels of its own. It gets samples, done and
- * rays from image; half and guides are not looked at. A pixel that is not finite, or
+ * rays from image; its half and guides are ignored. A pixel that is not finite, or is
  * above 1e15, stays as it is, and no other asks it.
  *
- * What the guides do not show is lost where it is fainter than the noise, as are shadows
- * in indirect light. The more samples there are, the more of it is back. Behind glass the
- * guides have noise themselves, and a dark pixel may come out a little below 0.
+ * What the guides do not show, such as a shadow in indirect light, is lost where it is
+ * fainter than the noise. More samples bring more of it back. Behind glass the guides
+ * themselves are noisy, and a dark pixel may come out a little below 0.
  *
  * RT_BAD_POINTER, RT_BAD_SIZE (also if result has another size, or one of them is a part
  * of a picture), RT_BAD_SAMPLES (less than 2), RT_BAD_GUIDES (no guides or no half),
  * RT_BAD_THREADS, RT_NO_MEMORY: then the result is untouched. */
 RTDEF rt_status rt_denoise(const rt_image *image, int threads, rt_image *result);
 
-/* The estimated error of what rt_denoise makes of the image, in units of rt_image_error:
- * not only noise, but also what is smoothed and should not be. Even and odd samples, with
- * means A and B, are finished apart into A' and B'. A' has not seen B, so |A' - B|^2 is
- * the square of its error plus the variance of B; and likewise for B'. The variances are
- * |A - B|^2 in all:
+/* The estimated error of what rt_denoise makes of the image, in units of rt_image_error.
+ * It counts not only noise, but also what is smoothed and should not be. Even and odd
+ * samples, with means A and B, are finished separately into A' and B'. A' has not seen B,
+ * so |A' - B|^2 is the square of its error plus the variance of B; likewise for B'. The
+ * two variances add up to |A - B|^2:
  *
  *     error^2 = 1/2 mean of |A' - B|^2 + |B' - A|^2 - |A - B|^2.
  *
- * That is the error with half of the samples, and so a little too large. It takes twice
- * as long as rt_denoise, and 24 bytes more for each pixel. INFINITY, that is unknown,
- * where rt_denoise would return an error. */
+ * That is the error with half of the samples, so it is a little too large. It takes twice
+ * as long as rt_denoise, and 24 more bytes per pixel. INFINITY (unknown) where rt_denoise
+ * would return an error. */
 RTDEF float rt_denoised_error(const rt_image *image, int threads);
 
 /* One point of a path: the ray that was followed, and what it met. */
@@ -3331,23 +3334,23 @@ typedef struct rt_vertex {
     bool inside;        /* and has the ray come through glass? */
 } rt_vertex;
 
-/* A question from one point of a path: does it see this light? */
+/* A question from one point of a path: does the point see this light? */
 typedef struct rt_shadow {
     int vertex, light; /* their numbers; light -1: a lamp with a size, */
     int lamp;          /* this one; else -1 */
     rt_ray ray;        /* from the point, to the light at t = 1 */
     float cosine, dd;  /* <N,L> and d^2 */
-    int blocker; /* the nearest shape in between, at t; -1: none, the light is seen (if
-                    no lamp with a size hides it: then light_sent is black) */
+    int blocker;       /* the nearest shape in between, at t; -1: none, the light is seen
+                    (unless a lamp with a size hides it: then light_sent is black) */
     float t;
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
     float weight;       /* of a lamp, already in light_sent: see rt_mis */
 } rt_shadow;
 
 /* All that happened to one sample of a pixel. The arrays are yours; say how long they
- * are. What does not fit is dropped, but still counted. There is at most one vertex more
- * than bounces, two with lamps or surfaces, and for each as many shadows as there are
- * lights and lamps. */
+ * are. What does not fit is dropped, but still counted. There is at most one more vertex
+ * than bounces (two more with lamps or surfaces), and for each vertex as many shadows as
+ * there are lights and lamps. */
 typedef struct rt_path {
     rt_vertex *vertices;
     int max_vertices, vertex_count;
@@ -3360,40 +3363,39 @@ typedef struct rt_path {
     bool told;             /* by rt_radiance_mis, which tells what it does */
 } rt_path;
 
-/* Follow one sample of the pixel (x, y) of the image once more, and write it down:
+/* Follow one sample of the pixel (x, y) of the image once more, and write it down.
  * path->value is, to the bit, what rt_render with the same arguments makes of this
- * sample; the pixel is its running mean, mean += (value - mean) / (sample + 1). Samples
- * count from 0. The image is not changed; of it only the size counts,
- * and whether it has a half.
+ * sample; the pixel is the running mean, mean += (value - mean) / (sample + 1). Samples
+ * count from 0. The image is not changed; only its size counts, and whether it has a
+ * half.
  *
- * What is written down are the questions that rt_radiance asks of the scene, by
- * rt_intersect and rt_occluded - or a routine of yours in their place, as long as it asks
- * by these two. So nothing is slower where nobody looks. rt_radiance_mis tells by itself
- * what it does.
+ * What is written down are the questions that rt_radiance, or a routine of yours in its
+ * place, asks of the scene through rt_intersect and rt_occluded. So nothing is slower
+ * when nobody looks. rt_radiance_mis itself tells what it does.
  *
  * Returns the same errors as rt_render, or RT_BAD_PIXEL; *path is then untouched. */
 RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
                                const rt_options *options, const rt_image *image, int x,
                                int y, int sample, rt_path *path);
 
-/* Build a tree over the shapes of the scene, in time n log n, on all cores, the same tree
- * on any number of them: *bvh is overwritten, then set scene->bvh = bvh. When a shape or
- * its material changes, build it anew. Memory: about 36 bytes for a sphere, 60 for a
- * triangle are asked of RT_MALLOC, for rt_free_bvh to give back; while it builds 70 more
- * for each.
+/* Build a tree over the shapes of the scene, in time n log n, on all cores; the tree is
+ * the same on any number of them. *bvh is overwritten; then set scene->bvh = bvh. When a
+ * shape or its material changes, build the tree anew. Memory comes from RT_MALLOC: about
+ * 36 bytes for a sphere and 60 for a triangle, until rt_free_bvh, and 70 more for each
+ * while the tree is built.
  *
- * RT_NO_MEMORY if there is none, or what rt_check_scene says; *bvh is then all zero. */
+ * RT_NO_MEMORY if memory runs out, or what rt_check_scene says; *bvh is then all zero. */
 RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh);
 
-/* Give the memory back; *bvh is all zero afterwards, so set scene->bvh = NULL. NULL or
- * all zero: does nothing. */
+/* Give the memory back; *bvh is all zero afterwards, so set scene->bvh = NULL. If bvh is
+ * NULL or all zero, nothing happens. */
 RTDEF void rt_free_bvh(rt_bvh *bvh);
 
-/* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15,
- * radius > 0, min <= max, albedo 0 to 1, intensity and background not negative, no
- * count negative, no array missing, bvh NULL or built for as many shapes; surfaces and
- * lamps as chapters 11 to 13 want them. Otherwise what is wrong, and in *index, unless
- * NULL, the number of the offender in its array. rt_render asks it first. */
+/* RT_OK if every shape and light of the scene makes sense: all numbers up to 1e15, radius
+ * > 0, min <= max, albedo 0 to 1, intensity and background not negative, no count
+ * negative, no array missing, bvh NULL or built for as many shapes; surfaces and lamps as
+ * chapters 11 to 13 want them. Otherwise it says what is wrong, and sets *index, unless
+ * NULL, to the number of the offender in its array. rt_render calls it first. */
 RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index);
 
 /* RT_OK, or RT_BAD_CAMERA if a number is not finite or above 1e15, or fov_y not in [0,
@@ -3401,18 +3403,18 @@ RTDEF rt_status rt_check_scene(const rt_scene *scene, int *index);
 RTDEF rt_status rt_check_camera(const rt_camera *camera);
 
 /* The number of threads that rt_render uses for options->threads = wanted; always 1
- * without OpenMP. What rt_render refuses counts as the nearest that it takes, 1 or
+ * without OpenMP. What rt_render would refuse counts as the nearest that it takes, 1 or
  * 1024. */
 RTDEF int rt_thread_count(int wanted);
 
-/* How many rays rt_render traces at a time for options->lanes = wanted: 1, or for 0 all
- * that there are, the same number in a whole program. What rt_render refuses counts as
- * the nearest below that it takes, and negative as 0.
+/* How many rays rt_render traces at a time for options->lanes = wanted: 1 for 1, and for
+ * 0 all that there are, which is the same number in a whole program. What rt_render would
+ * refuse counts as the nearest below that it takes, and a negative number as 0.
  *
- * gcc and clang, told to optimise, compile packets of 8 rays for x86 (AVX2 and FMA: where
- * the machine that runs the program lacks them, it is 1), of 16 if told that it has
- * AVX-512, as by -march=native; of 4 for 64-bit ARM and for WebAssembly with -msimd128.
- * Anywhere else it is 1. */
+ * gcc and clang, told to optimise, compile packets of 8 rays for x86 (with AVX2 and FMA:
+ * 1 on a machine that lacks them), of 16 if told that the machine has AVX-512, as by
+ * -march=native, and of 4 for 64-bit ARM and for WebAssembly with -msimd128. Anywhere
+ * else it is 1. */
 RTDEF int rt_lane_count(int wanted);
 
 /* What a status means, in English, without a full stop. Never NULL. */
@@ -3460,7 +3462,7 @@ static inline bool rt__intersect_noted(const rt_scene *scene, const rt_ray *ray,
     return found;
 }
 
-/* How the light stands to the surface. */
+/* Where the light is, seen from the surface. */
 static inline void rt__set_shadow(rt_shadow *shadow, const rt_vertex *v, rt_vec3 to_light)
 {
     shadow->dd = rt_dot(to_light, to_light);
@@ -3476,7 +3478,7 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
     const int n = path->shadow_count++, vertex = path->vertex_count - 1;
     if (vertex < 0 || vertex >= path->max_vertices)
         return blocked;
-    rt_shadow here; /* also if it does not fit: the light counts all the same */
+    rt_shadow here; /* even if it does not fit: the light still counts */
     rt_vertex *v = &path->vertices[vertex];
     memset(&here, 0, sizeof here);
     here.vertex = vertex;
@@ -3524,11 +3526,11 @@ static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, in
     v->light = light;
     v->lamp = lamp;
     v->weight = weight;
-    if (lamp >= 0) { /* before whatever shape there is */
+    if (lamp >= 0) { /* in front of any shape */
         v->event = RT_EVENT_LAMP;
         v->shape = -1;
         memset(&v->hit, 0, sizeof v->hit);
-    } else if (v->shape >= 0) { /* in case that it ends here: what the surface is */
+    } else if (v->shape >= 0) { /* in case it ends here: what the surface is */
         const rt_surface *surface = rt_surface_of(scene, &v->hit);
         v->event = surface->eta > 0.0f         ? RT_EVENT_REFRACTED
                    : !v->hit.material->mirror  ? RT_EVENT_MATT
@@ -3682,14 +3684,14 @@ RTDEF const char *rt_status_text(rt_status status)
     return "unknown status";
 }
 
-/* All three components in [low, high]; NaN is not. */
+/* Are all three components in [low, high]? NaN is not. */
 static inline bool rt__within(rt_vec3 v, float low, float high)
 {
     return v.x >= low && v.x <= high && v.y >= low && v.y <= high && v.z >= low &&
            v.z <= high;
 }
 
-/* The largest number allowed: its square, and I / d^2, must still be floats. */
+/* The largest number allowed: its square, and I / d^2, must still fit a float. */
 #define RT__LARGEST 1e15f
 
 static inline bool rt__good_place(rt_vec3 v)
@@ -3826,9 +3828,9 @@ RTDEF int rt_thread_count(int wanted)
 #endif
 }
 
-/* How many rays at a time? See the last section. None where the compiler does not
- * optimise: there packets would take longer. RT_NO_PACKETS leaves them out, RT_PACKETS
- * takes them in all the same. */
+/* How many rays at a time? See the last section. Without optimisation there are no
+ * packets, as they would take longer. RT_NO_PACKETS leaves them out, RT_PACKETS keeps
+ * them in any case. */
 #if defined(__GNUC__) && !defined(RT_NO_PACKETS) && !defined(RT__OWN) &&                 \
     (defined(__OPTIMIZE__) || defined(RT_PACKETS))
 #if defined(__SSE2_MATH__)
@@ -3884,7 +3886,7 @@ static inline void rt__grow(rt__bounds *b, const rt__bounds *by)
     b->max = rt__max(b->max, by->max);
 }
 
-/* Half the surface: in proportion to it, rays from all sides meet a box. */
+/* Half the surface: rays from all sides meet a box in proportion to it. */
 static inline double rt__area(const rt__bounds *b)
 {
     const rt_dvec3 d = rt_dsub(rt_to_double(b->max), rt_to_double(b->min));
@@ -3919,8 +3921,9 @@ static inline rt__bounds rt__other_bounds(const rt_scene *scene, rt__other p)
 }
 
 /* A box, and a little more: its coordinates are rounded, and a ray in the very plane of a
- * face must enter it (for rt__inverse makes 0 of 0/0). As much along each axis: where
- * a triangle is seen, is a sum of all three, and so is its rounding. */
+ * face must enter it (since rt__inverse turns 0/0 into 0). The margin is the same along
+ * each axis: where a triangle appears to a ray is a sum over all three, and so is its
+ * rounding. */
 static inline rt__bounds rt__with_margin(rt__bounds b)
 {
     const rt_vec3 size = rt__max(rt__max(b.max, rt_scale(b.max, -1.0f)),
@@ -3959,7 +3962,7 @@ typedef struct rt__entry {
     int number;
 } rt__entry;
 
-/* Some of them, of one kind: entries[first] and those after it. */
+/* Some shapes of one kind: entries[first] and those after it. */
 typedef struct rt__group {
     rt__bounds bounds;
     int first, count;
@@ -3994,7 +3997,7 @@ static inline rt__group rt__group_of(const rt__entry *entries, int first, int co
     return group;
 }
 
-/* A part of a group, between two places along an axis. */
+/* The part of a group between two places along an axis. */
 typedef struct rt__bin {
     rt__bounds bounds, middles;
     int count;
@@ -4025,13 +4028,13 @@ static inline int rt__bin_of(const rt__entry *entry, int axis, float low, float 
     return bin < RT__BINS ? bin : RT__BINS - 1;
 }
 
-/* How many leaves so many shapes make at least. */
+/* The least number of leaves for so many shapes. */
 static inline int rt__leaves(int count)
 {
     return (count + 7) / 8;
 }
 
-/* The first cut of the cheapest two, and in *one and *two what it makes. */
+/* The cheapest cut, the first of several; and in *one and *two the two parts. */
 static inline int rt__cheapest_cut(const rt__bin *bins, rt__bin *one, rt__bin *two)
 {
     rt__bin side = rt__no_bin(), after[RT__BINS];
@@ -4056,14 +4059,15 @@ static inline int rt__cheapest_cut(const rt__bin *bins, rt__bin *one, rt__bin *t
     return best;
 }
 
-/* Cut a group into itself and another. middles: in the box around the middles of all,
- * out those of both.
+/* Cut a group into itself and another. middles is the box around the middles of all;
+ * afterwards, those of the two.
  *
- * A ray enters a box in proportion to its surface, and then asks what is inside, leaf by
- * leaf: the two cost A_left n_left + A_right n_right, if n counts leaves. Of 15 cuts
- * across the longest axis the cheapest is taken: the surface area heuristic, in bins (I.
- * Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007). A giant
- * among small shapes is cut off by it at once, and spoils only the boxes above. */
+ * A ray enters a box with a chance in proportion to its surface, and then asks what is
+ * inside, leaf by leaf. So the two cost A_left n_left + A_right n_right, if n counts
+ * leaves. The cheapest of 15 cuts across the longest axis is taken: the surface area
+ * heuristic, in bins (I. Wald, "On fast construction of SAH-based bounding volume
+ * hierarchies", 2007). It cuts off a giant among small shapes at once, so the giant
+ * spoils only the boxes above. */
 static inline void rt__split(rt__entry *entries, bool in_halves, rt__group *group,
                              rt__bounds *middles, rt__group *other,
                              rt__bounds *other_middles)
@@ -4075,7 +4079,7 @@ static inline void rt__split(rt__entry *entries, bool in_halves, rt__group *grou
     const float low = rt__component(middles->min, axis);
     const float extent = rt__component(extents, axis);
     const int first = group->first, end = first + group->count;
-    if (in_halves || !(extent > 1e-30f)) { /* all in one place: no cut is better */
+    if (in_halves || !(extent > 1e-30f)) { /* all in one place: any cut will do */
         const int half = group->count / 2;
         *group = rt__group_of(entries, first, half);
         *other = rt__group_of(entries, first + half, end - first - half);
@@ -4097,7 +4101,7 @@ static inline void rt__split(rt__entry *entries, bool in_halves, rt__group *grou
     }
     const int best = rt__cheapest_cut(bins, &one, &two);
     int left = first;
-    for (int i = first; i < end; i++) { /* those before the cut go to the front */
+    for (int i = first; i < end; i++) { /* move those before the cut to the front */
         const rt__entry entry = entries[i];
         entries[i] = entries[left];
         entries[left] = entry;
@@ -4113,8 +4117,8 @@ static inline void rt__split(rt__entry *entries, bool in_halves, rt__group *grou
 }
 
 /* Cut the groups of a branch until there are eight, or all are leaves: always the one
- * that costs most, or in halves, the one with the most shapes: then none of the eight
- * has more than an eighth of them, rounded up. */
+ * that costs most. With in_halves it is the one with the most shapes; then none of the
+ * eight has more than an eighth of them, rounded up. */
 static inline void rt__split_in_eight(rt__entry *entries, bool in_halves,
                                       rt__group *groups)
 {
@@ -4141,26 +4145,28 @@ static inline void rt__split_in_eight(rt__entry *entries, bool in_halves,
     }
 }
 
-/* Which level of the tree is the first to be cut in halves. Above it the cheapest cut may
- * take off one shape after the other, where they lie at 1, 2, 4, 8 ... At this level
- * a node has less than 2^31 shapes, on each of the next ten at most an eighth as many:
+/* The first level of the tree that is cut in halves. Above it the cheapest cut may take
+ * off one shape at a time, as where they lie at 1, 2, 4, 8 ... At this level a node has
+ * less than 2^31 shapes, and on each of the next ten levels at most an eighth as many:
  * 2^28, 2^25 ... 2. Eight or less are a leaf, so there are less than 21 + 11 levels. */
 enum { RT__HALVES = RT__LEVELS - 11 };
 
-/* Trees of more shapes than that are built by several threads, and so many are a task. */
+/* Several threads build a tree of more shapes than the first number; the second is the
+ * size of a task. */
 enum { RT__SHARED = 65536, RT__TASK = 4096 };
 
-/* A group of n > 8 shapes makes at most (n - 2) / 7 nodes: itself and those below. If its
- * node has only leaves, n >= 9. Else it has eight groups, m of them of more than eight
- * shapes: if it is true of those, they make at most (n - (8 - m) - 2 m) / 7, and
- * with the node itself (n - 1 - m) / 7. So each group has a slice of the branches of its
- * own, whatever the threads do: the tree is the same for any number of them. */
+/* A group of n > 8 shapes makes at most (n - 2) / 7 nodes, its own and those below. If
+ * its node has only leaves, that holds since n >= 9. Otherwise it has eight groups, m of
+ * them with more than eight shapes. If the bound holds for those, they make at most (n -
+ * (8 - m) - 2 m) / 7 nodes, and with the node itself there are (n - 1 - m) / 7. So each
+ * group has its own slice of the branches, whatever the threads do, and the tree is the
+ * same for any number of threads. */
 static inline int rt__most_nodes(int count)
 {
     return count > 8 ? (count - 2) / 7 : 0;
 }
 
-/* What it takes to build a tree. */
+/* All that building a tree needs. */
 typedef struct rt__builder {
     const rt_scene *scene;
     rt__entry *entries;
@@ -4184,7 +4190,7 @@ static inline int rt__rows(int kind)
     return kind == RT__SPHERES ? 5 : kind == RT__BOXES ? 7 : 10;
 }
 
-/* Branch number at, of which the groups are set, and all below it. */
+/* Build branch number at, whose groups are set, and all below it. */
 static inline void rt__build_branch(const rt__builder *b, int at, int depth)
 {
     rt__branch *branch = &b->branches[at];
@@ -4239,7 +4245,7 @@ static inline void rt__put_vec(float *to, rt_vec3 v)
     to[2] = v.z;
 }
 
-/* What a leaf has of a shape. */
+/* The numbers of a shape that its leaf holds. */
 static inline void rt__set_values(const rt_scene *scene, int number, float *values)
 {
     const int box = number - scene->sphere_count;
@@ -4266,8 +4272,8 @@ static inline void rt__set_values(const rt_scene *scene, int number, float *valu
     rt__put_vec(values + 6, corners.c);
 }
 
-/* The leaf at rows[at]; returns what a node says of it. Columns without a number repeat
- * the first. */
+/* Write the leaf at rows[at]; returns how a node refers to it. Columns without a shape
+ * repeat the first. */
 static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int at)
 {
     const rt__entry *entries = &b->entries[group->first];
@@ -4284,8 +4290,8 @@ static inline int rt__set_leaf(const rt__builder *b, const rt__group *group, int
 }
 
 /* The order in which a ray meets the boxes, the last first: eight numbers of three bits
- * for each octant, of which bit 0, 1, 2 says that the ray goes down along x, y, z. It
- * goes by the middles of the boxes, and is a guess. Only the time depends on it. */
+ * for each octant; bit 0, 1, 2 of the octant says that the ray goes down along x, y, z.
+ * The order is a guess by the middles of the boxes. Only the time depends on it. */
 static inline void rt__set_order(rt_bvh_node *node)
 {
     for (int octant = 0; octant < 8; octant++) {
@@ -4309,8 +4315,8 @@ static inline void rt__set_order(rt_bvh_node *node)
     }
 }
 
-/* The branch becomes the node with this number, and those below come after it; and so
- * for the rows. */
+/* The branch becomes the node with this number, and those below come after it. The same
+ * goes for the rows. */
 static inline void rt__set_node(const rt__builder *b, int at, int number, int row)
 {
     const rt__branch *branch = &b->branches[at];
@@ -4343,7 +4349,7 @@ static inline void rt__set_node(const rt__builder *b, int at, int number, int ro
     rt__set_order(node);
 }
 
-/* For one ray at a time, up to so many shapes are asked sooner without the tree. */
+/* One ray at a time asks up to so many shapes sooner without the tree. */
 enum { RT__FEW_ALONE = 64 };
 
 RTDEF void rt_free_bvh(rt_bvh *bvh)
@@ -4355,7 +4361,8 @@ RTDEF void rt_free_bvh(rt_bvh *bvh)
     memset(bvh, 0, sizeof *bvh);
 }
 
-/* Memory for nodes and rows, no more than they need, and nodes at whole cache lines. */
+/* Get memory for nodes and rows, no more than they need, with nodes at whole cache
+ * lines. */
 static inline bool rt__make_room(rt_bvh *bvh, int nodes, int rows)
 {
     const size_t line = 64;
@@ -4377,7 +4384,7 @@ static bool rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_m
                              rt_hit *hit); /* the last section */
 #endif
 
-/* The shapes, kind by kind, and of each kind a group. */
+/* List the shapes, kind by kind, and make a group of each kind. */
 static inline void rt__set_groups(const rt__builder *b, int count)
 {
     const rt_scene *scene = b->scene;
@@ -4398,7 +4405,7 @@ static inline void rt__set_groups(const rt__builder *b, int count)
             groups[k++] = rt__group_of(b->entries, first, counts[kind]);
 }
 
-/* The tree of a scene that is good, with so many threads. */
+/* Build the tree of a valid scene with so many threads. */
 static inline bool rt__build(const rt__builder *b, int count, int threads)
 {
     rt__set_groups(b, count);
@@ -4419,7 +4426,7 @@ static inline bool rt__build(const rt__builder *b, int count, int threads)
     return true;
 }
 
-/* How many triangles come before those of each mesh: a loop over a few is as quick. */
+/* Count the triangles before those of each mesh. For a few meshes a loop is as quick. */
 static inline bool rt__count_before(rt_bvh *bvh, const rt_scene *scene)
 {
     const int count = bvh->mesh_count = scene->mesh_count;
@@ -4454,7 +4461,8 @@ static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh
     }
     shapes.bvh = bvh;
     const size_t n = (size_t)count + 1, branches = (size_t)rt__most_nodes(count) + 1;
-    if (n > SIZE_MAX / 512) /* meshes may share arrays: more than fits 32 bits */
+    if (n > SIZE_MAX / 512) /* meshes may share arrays, so there may be more than fits 32
+                               bits */
         return RT_NO_MEMORY;
     rt__builder b;
     b.scene = &shapes;
@@ -4489,15 +4497,15 @@ RTDEF rt_status rt_build_bvh(const rt_scene *scene, rt_bvh *bvh)
 typedef struct rt__job rt__job;
 typedef struct rt__table rt__table; /* see the last section */
 
-/* Trace sample number sample of the pixels from first to last - 1 into values and, unless
- * NULL, guides; returns how many rays it took. */
+/* Trace sample number sample of the pixels first to last - 1 into values and, unless
+ * NULL, guides. Returns how many rays it took. */
 typedef uint64_t rt__step(const rt__job *job, int sample, int first, int last,
                           rt_watch *watch, rt_vec3 *values, rt_guide *guides);
 
 struct rt__job {
     rt__step *step;
     int together; /* it takes so many pixels at a time */
-    int ticks;    /* it may tick so often between two looks at the clock */
+    int ticks;    /* so many ticks may pass between two looks at the clock */
     rt_image *image;
     rt_options options;
     rt_pixel_function *pixel; /* rt__step_pixels calls it with context */
@@ -4508,7 +4516,7 @@ struct rt__job {
     const rt__table *table; /* for packets, if the shapes are few */
 };
 
-/* Which random numbers a sample takes: those of (the result, *seed). */
+/* The random numbers that a sample takes: those of (the result, *seed). */
 static inline uint32_t rt__sequence(const rt__job *job, int sample, uint32_t *seed)
 {
     *seed = job->options.seed;
@@ -4518,9 +4526,9 @@ static inline uint32_t rt__sequence(const rt__job *job, int sample, uint32_t *se
     return (uint32_t)sample >> 1;
 }
 
-/* The mean of n+1 values is the mean of n plus the (n+1)th part of the difference, so the
- * image is a picture after every sample, and the order of the sums is always the same.
- * *rest, unless NULL, is what rounding took from *mean, and goes back in. */
+/* The mean of n+1 values is the mean of n plus 1/(n+1) of the difference. So the image is
+ * a picture after every sample, and the order of the sums is always the same. *rest,
+ * unless NULL, is what rounding took from *mean; it goes back in. */
 static inline void rt__add_to_mean(rt_vec3 *mean, rt_vec3 *rest, int n, rt_vec3 value)
 {
     const rt_vec3 nothing = rt_vec(0.0f, 0.0f, 0.0f);
@@ -4575,7 +4583,7 @@ static inline rt_vec3 rt__look(const rt__job *job, int i, rt_rng *rng)
     return job->pixel(job->context, (float)column + dx, (float)row + dy, rng);
 }
 
-/* The numbers of a sample of pixel number i. */
+/* The random numbers of a sample of pixel number i. */
 static inline rt_rng rt__start(const rt__job *job, int sample, int i)
 {
     uint32_t seed;
@@ -4586,7 +4594,7 @@ static inline rt_rng rt__start(const rt__job *job, int sample, int i)
 
 static inline rt_ray rt__ray(const rt__job *job, float x, float y)
 {
-#ifdef rt_camera_ray /* yours, which knows nothing of films */
+#ifdef rt_camera_ray /* yours knows nothing of films */
     return rt_camera_ray(job->camera, job->image->width, job->image->height, x, y);
 #else
     return rt__film_ray(&job->film, x, y);
@@ -4609,7 +4617,7 @@ static inline rt_ray rt__random_ray(const rt__job *job, float x, float y, rt_rng
 #endif
 }
 
-/* Does it take more than part one, for light to find its way? */
+/* Does light need more than part one to find its way? */
 static inline bool rt__is_part_two(const rt_scene *scene)
 {
     return scene->surfaces || scene->lamp_count > 0 || scene->sky;
@@ -4624,7 +4632,7 @@ static inline rt_vec3 rt__pixel(const void *context, float x, float y, rt_rng *r
                                        : rt_radiance(job->scene, &ray, bounces, rng);
 }
 
-/* The first look of the sample whose numbers these are. */
+/* The first look of the sample that has these random numbers. */
 static inline rt_guide rt__guide(const rt__job *job, int i, rt_rng rng)
 {
     const int width = job->image->width, column = i % width, row = i / width;
@@ -4733,8 +4741,8 @@ typedef char rt__mutex;
 #define rt__destroy_lock(mutex) (void)(mutex)
 #endif
 
-/* Pixels with neighbouring numbers, and some samples of each: what a thread does before
- * it asks for more. */
+/* A task: pixels with neighbouring numbers, and some samples of each. A thread finishes
+ * it before it asks for more. */
 enum { RT__CHUNK = 128 };
 typedef struct rt__task {
     int chunk;    /* which pixels */
@@ -4743,29 +4751,32 @@ typedef struct rt__task {
 
 /* What the threads share. */
 typedef struct rt__team {
-    rt_watch watch; /* of the thread that called: first, so its address is the team's */
+    rt_watch watch; /* of the calling thread; it comes first, so its address is the
+                       team's */
     const rt__job *job;
     int threads, chunk, chunks;    /* there are so many chunks of so many pixels */
     rt__mutex *writing;            /* each thread locks its own while it writes pixels */
-    double start, asked, interval; /* progress was asked then; again after so long */
+    double start, asked, interval; /* when progress was last asked, and how long until it
+                                      is asked again */
     double looked;                 /* at the clock */
-    double begun, wanted;          /* the image had so many samples, and gets so many */
-    int first_sample, first_pixel; /* what the image lacks first */
+    double begun, wanted;          /* how many samples the image had, and how many it
+                                      gets */
+    int first_sample, first_pixel; /* the first that the image lacks */
     int end;                       /* tasks go up to this sample, not included */
     float part_of_error;
 
-    rt__mutex queue; /* who reads or writes what follows locks this */
+    rt__mutex queue; /* lock it to read or write what follows */
     rt__task last;   /* the last task that was given out */
     int *recorded;   /* how many samples each chunk has in the image */
     double since;    /* when the samples of this task were begun */
     bool asked_once, cancelled, time_over;
 } rt__team;
 
-/* The next task, if there is one; *task was the one before of the same thread, and took
- * so many rays. Tasks are given out in order, and what was given out is finished: so when
- * a picture is stopped, all pixels up to some number have one sample more than the
- * others. A task is one sample of its pixels. Of small pictures it is several, lest it be
- * too short; then all pixels get them before anything stops. */
+/* The next task, if there is one; *task was the thread's previous one, and took so many
+ * rays. Tasks are given out in order, and each one given out is finished. So when a
+ * picture is stopped, all pixels up to some number have one sample more than the others.
+ * A task is one sample of its pixels. In small pictures it is several, lest it be too
+ * short; then all pixels get them before anything stops. */
 static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
 {
     rt__task *last = &team->last;
@@ -4773,7 +4784,8 @@ static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
     team->job->image->rays += rays;
     if (task->to > task->from)
         team->recorded[task->chunk] = task->to;
-    const bool all = last->chunk == team->chunks - 1; /* given out, of these samples */
+    const bool all = last->chunk == team->chunks - 1; /* are all chunks given out, for
+                                                         these samples? */
     const bool over = team->time_over && (last->from > 0 || (all && last->to > 0));
     const bool may_stop = all || last->to - last->from == 1;
     const bool stop = (team->cancelled || over) && may_stop;
@@ -4797,8 +4809,9 @@ static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
     return more;
 }
 
-/* May a thread record the task that it has traced? If all samples before are recorded
- * and, so that a picture can be stopped before much is done, progress was asked once. */
+/* May a thread record the task that it has traced? Yes, once all earlier samples are
+ * recorded and progress was asked for the first time, so that a picture can be stopped
+ * before much is done. */
 static inline bool rt__may_record(rt__team *team, const rt__task *task, int thread)
 {
     rt__lock(&team->queue);
@@ -4808,8 +4821,8 @@ static inline bool rt__may_record(rt__team *team, const rt__task *task, int thre
     return may;
 }
 
-/* Samples and done of the image: what all chunks have, and how many at the beginning have
- * one more. Returns whether all tasks that were given out are recorded. */
+/* Set samples and done of the image: what all chunks have, and how many pixels at the
+ * beginning have one more. Returns whether all tasks that were given out are recorded. */
 static inline bool rt__count_samples(rt__team *team)
 {
     rt_image *image = team->job->image;
@@ -4831,7 +4844,7 @@ static inline bool rt__count_samples(rt__team *team)
     return all;
 }
 
-/* How much is done of what rt_render was called for, 0 to 1. */
+/* How much of what rt_render was called for is done, 0 to 1. */
 static inline float rt__part(rt__team *team, double now)
 {
     const float limit = team->job->options.seconds;
@@ -4847,10 +4860,10 @@ static inline float rt__part(rt__team *team, double now)
     return part < 0.0f ? 0.0f : part < 1.0f ? part : 1.0f;
 }
 
-/* Now and then the thread that called rt_render looks up from its work: is the time over,
- * and is it time to ask progress? While progress reads the image, it holds the locks of
- * all others. They go on tracing and wait only when they want to write: nobody waits for
- * the slowest before the very end. */
+/* Now and then the thread that called rt_render looks up from its work. Is time up, and
+ * is it time to ask progress? While progress reads the image, this thread holds the locks
+ * of all others. They go on tracing, and wait only when they want to write: nobody waits
+ * for the slowest before the very end. */
 static inline void rt__look_up(rt_watch *watch)
 {
     rt__team *team = (rt__team *)watch;
@@ -4858,7 +4871,7 @@ static inline void rt__look_up(rt_watch *watch)
     const double now = rt__seconds();
     const bool over = o->seconds > 0.0f && now - team->start >= (double)o->seconds;
     bool go_on = true;
-    /* not so often while all goes fast: some clocks are slow */
+    /* less often while rays are fast: some clocks are slow */
     watch->ticks = team->job->ticks * (now - team->looked < 1e-4 ? 16 : 1);
     team->looked = now;
     if (o->progress && !team->cancelled && now - team->asked >= team->interval) {
@@ -4882,7 +4895,7 @@ static inline void rt__look_up(rt_watch *watch)
     }
 }
 
-/* What one thread does, from the first task to the last. */
+/* The work of one thread, from its first task to its last. */
 static inline void rt__work(rt__team *team, int thread)
 {
     const rt__job *job = team->job;
@@ -4922,9 +4935,8 @@ static inline void rt__work(rt__team *team, int thread)
             watch->look(watch);
 }
 
-/* Packets compute what some of their lanes do not need, and divide by zero there: a
- * program that traps such things, to find its own, does not stop for them, nor see their
- * flags. */
+/* Packets compute what some of their lanes do not need, and divide by zero there. A
+ * program that traps its own exceptions must not stop for these, nor see their flags. */
 static inline void rt__work_quietly(rt__team *team, int thread)
 {
 #if RT__LANES > 1
@@ -4959,11 +4971,11 @@ static inline void rt__work_together(rt__team *team)
     rt__count_samples(team);
 }
 
-/* Means of more samples than this in one call keep their rest. */
+/* Means of more samples than this in one call keep their rest, see rt_image. */
 enum { RT__MANY = 4096 };
 
-/* All samples. The error is looked at when their number has grown by an eighth, and is
- * even; for that the threads have to meet. */
+/* Take all samples. The error is checked whenever their number has grown by an eighth,
+ * and is even; for that the threads have to meet. */
 static inline void rt__run_team(rt__team *team, int target)
 {
     const rt_options *o = &team->job->options;
@@ -4982,7 +4994,7 @@ static inline void rt__run_team(rt__team *team, int target)
     }
 }
 
-/* A chunk has a thousand rays or so, and there are some for each thread, if possible. */
+/* A chunk takes a thousand rays or so, and each thread gets several, if possible. */
 static inline void rt__share_out(rt__team *team, int count)
 {
     const rt__job *job = team->job;
@@ -5156,14 +5168,14 @@ RTDEF rt_status rt_trace_pixel(const rt_scene *scene, const rt_camera *camera,
 
 /* ---- finishing a picture: chapter 10, sixteen pixels at a time ------------------- */
 
-/* All pixels take the same steps, one row after the other. The loops over the 16 pixels
- * of a block do without if, so that a compiler can do several of them at once. */
+/* All pixels take the same steps, row by row. The loops over the 16 pixels of a block
+ * contain no if, so that a compiler can do several pixels at once. */
 enum { RT__BLOCK = 16, RT__PASSES = 4, RT__MARGIN = 2 << (RT__PASSES - 1) };
 
 /* Which samples of the image? */
 typedef enum rt__samples { RT__ALL, RT__EVEN, RT__ODD } rt__samples;
 
-/* Planes of a number for each pixel. All rows have margins, where all numbers are 0. */
+/* Planes with a number for each pixel. All rows have margins, where the numbers are 0. */
 typedef struct rt__finish {
     const rt_image *image;
     rt__samples part;
@@ -5173,7 +5185,7 @@ typedef struct rt__finish {
     float *known; /* 1; 0: in the margin, no surface, or no number */
     float *normal[3], *point[3], *albedo[3];
     float *indirect[3], *noise;       /* the noisy image without direct light */
-    float *light[2][3], *variance[2]; /* per unit of albedo, now and before */
+    float *light[2][3], *variance[2]; /* per unit of albedo, this pass and the last */
 } rt__finish;
 
 enum { RT__PLANES = 1 + 3 * 3 + 3 + 1 + 2 * 3 + 2 };
@@ -5205,8 +5217,8 @@ static inline bool rt__is_moderate(rt_vec3 v)
     return fabsf(v.x) <= 1e15f && fabsf(v.y) <= 1e15f && fabsf(v.z) <= 1e15f;
 }
 
-/* Light per unit of albedo. A channel in which the surface sends nothing on does not show
- * it: there it is taken to be as in the mean of all. */
+/* Light per unit of albedo. A channel in which the surface reflects nothing does not show
+ * it; there the mean of all channels is taken. */
 static inline rt_vec3 rt__per_albedo(rt_vec3 light, rt_vec3 albedo)
 {
     const float mean = rt__mean(light) / rt__mean(albedo);
@@ -5222,7 +5234,7 @@ static inline float rt__even_to_odd(const rt_image *image, int i)
     return (float)(n - odds) / (float)odds;
 }
 
-/* The mean over the samples of a part, from those of all and of the even ones. */
+/* The mean over a part of the samples, from the mean of all and that of the even ones. */
 static inline rt_vec3 rt__part_of(const rt_image *image, rt__samples part, int i,
                                   rt_vec3 all, rt_vec3 even)
 {
@@ -5232,7 +5244,7 @@ static inline rt_vec3 rt__part_of(const rt_image *image, rt__samples part, int i
                               : rt_add(all, rt_scale(rt_sub(all, even), ratio));
 }
 
-/* The standard deviation of that mean, where the difference of even and all is 1. */
+/* The standard deviation of that mean, if the means of even and all differ by 1. */
 static inline float rt__spread(const rt_image *image, rt__samples part, int i)
 {
     const float ratio = rt__even_to_odd(image, i);
@@ -5275,8 +5287,8 @@ static inline void rt__load_row(const rt__finish *f, int y)
     }
 }
 
-/* The mean of a plane over the known of 7 x 7 pixels: a single one tells little about its
- * variance. */
+/* The mean of a plane over the known ones of 7 x 7 pixels: a single pixel tells little
+ * about its variance. */
 RT__INLINE void rt__average_row(const rt__finish *f, int y, const float *from, float *to)
 {
     for (int x = 0; x < f->width; x += RT__BLOCK) {
@@ -5300,9 +5312,9 @@ static inline void rt__variance_row(const rt__finish *f, int y)
     rt__average_row(f, y, f->variance[1], f->variance[0]);
 }
 
-/* One pass of the filter, with holes: the weights 1 4 6 4 1 (/ 16) of a spline in x and
- * y, times what each pixel has to say. The variance of a mean with weights w is the sum
- * of w^2 variance, over the square of the sum of w. */
+/* One pass of the filter with holes: the weights 1 4 6 4 1 (/ 16) of a spline in x and y,
+ * times each pixel's say. The variance of a mean with weights w is the sum of w^2 times
+ * the variances, over the square of the sum of w. */
 static inline void rt__smooth_row(const rt__finish *f, int y)
 {
     static const float spline[5] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};
@@ -5346,7 +5358,7 @@ static inline void rt__smooth_row(const rt__finish *f, int y)
     }
 }
 
-/* From light per unit of albedo back to what arrives. */
+/* From light per unit of albedo back to the light that arrives. */
 static inline void rt__unload_row(const rt__finish *f, int y)
 {
     const int first = rt__at_row(f, y);
@@ -5355,8 +5367,8 @@ static inline void rt__unload_row(const rt__finish *f, int y)
         rt__set(light, i, rt_mul(rt__get(light, i), rt__get(f->albedo, i)));
 }
 
-/* Pixels with a neighbour that is unlike them: means of the four mixtures of opposite
- * neighbours, each with what its guides have to say, and of themselves. */
+/* Pixels with a neighbour that is unlike them: take the mean of the pixel and the four
+ * mixtures of opposite neighbours, each weighted by its guides. */
 static inline void rt__edge_row(const rt__finish *f, int y)
 {
     const int from = RT__PASSES & 1;
@@ -5424,7 +5436,7 @@ static inline void rt__differ_row(const rt__finish *f, int y)
     }
 }
 
-/* The outcome, and as much of the noisy pixels as there is doubt. */
+/* Store the outcome, and as much of the noisy pixels as there is doubt. */
 static inline void rt__store_row(const rt__finish *f, int y)
 {
     const rt_image *image = f->image;
@@ -5446,7 +5458,7 @@ static inline void rt__store_row(const rt__finish *f, int y)
     }
 }
 
-/* One step for all rows, which threads share; they meet at its end. */
+/* One step for all rows. Threads share the rows and meet at the end. */
 typedef void rt__row_step(const rt__finish *f, int y);
 
 static inline void rt__all_rows(const rt__finish *f, int threads, rt__row_step *step)
@@ -5464,7 +5476,7 @@ static inline rt_status rt__check_finish(const rt_image *image, int threads)
     const rt_status status = rt__check_image(image);
     if (status != RT_OK)
         return status;
-    if (image->count > 0) /* a part lacks the neighbours of its pixels */
+    if (image->count > 0) /* a part lacks neighbours of its pixels */
         return RT_BAD_SIZE;
     if (!image->half || !image->guides)
         return RT_BAD_GUIDES;
@@ -5568,19 +5580,19 @@ RTDEF float rt_denoised_error(const rt_image *image, int threads)
 /* ---- what packets of rays want to know of a scene -------------------------------- */
 
 #if RT__LANES > 1
-/* So many shapes are asked one by one, without the tree: about there it takes as long. Of
- * meshes and custom shapes, which are in the tree all the same, there may be some beside
- * them. */
+/* Up to so many shapes are asked one by one, without the tree; for more, the tree is
+ * faster. A few meshes and custom shapes, which stay in the tree, are allowed besides. */
 enum { RT__FEW = RT__LANES == 16 ? 480 : 50 * RT__LANES, RT__FEW_OTHERS = 16 };
 
 typedef struct rt__column {
     float x[RT__FEW], y[RT__FEW], z[RT__FEW];
 } rt__column;
 
-/* The shapes of a scene, column by column, by their number in rt_hit; of meshes and
+/* The shapes of a scene, column by column, by their number in rt_hit; for meshes and
  * custom shapes the boxes around them, see rt__near_others. */
 struct rt__table {
-    bool few;                      /* else there is nothing here, and rays ask the tree */
+    bool few;                      /* otherwise all this is empty, and rays ask the
+                                      tree */
     int spheres, count, all;       /* up to count are spheres and boxes */
     rt__column place, max, albedo; /* place is the center or min */
     float kind[RT__FEW];           /* see rt__hits */
@@ -5592,7 +5604,8 @@ struct rt__table {
     float least_light;             /* of them */
     float eta[RT__FEW], shininess[RT__FEW]; /* part two, of the surfaces */
     rt__column absorption, emission;
-    bool patterns, emits; /* has any of them a pattern, or emission? Also if not few */
+    bool patterns, emits; /* has any of them a pattern, or emission? Set even if not
+                             few */
 };
 
 #define RT__DOUBT 1.953125e-3f /* 2^-9, see rt__place */
@@ -5615,8 +5628,8 @@ static rt__bounds rt__around(const rt_scene *scene, int i)
     return rt__with_margin(b);
 }
 
-/* Few shapes, of numbers so moderate that squares are good floats, and no sphere so small
- * that rt_leave's step is on the other side of it? */
+/* Are there few shapes, with numbers so moderate that their squares are good floats, and
+ * no sphere so small that rt_leave's step leads to its other side? */
 static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
                         const rt_lens *lens)
 {
@@ -5647,8 +5660,8 @@ static bool rt__are_few(const rt_scene *scene, const rt_camera *camera,
     return good;
 }
 
-/* All points of the lamp that rt_sample_lamp may choose are as far from O, or farther.
- * They are rounded, by less than 2^-16 of the numbers that they are made of. */
+/* All points of the lamp that rt_sample_lamp may choose are at least so far from O. The
+ * points are rounded, by less than 2^-16 of the numbers that they are made of. */
 static double rt__least_distance(const rt_lamp *lamp, rt_dvec3 o)
 {
     const rt_dvec3 center = rt_to_double(lamp->center), way = rt_dsub(center, o);
@@ -5746,7 +5759,7 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
             return status;
         indexed.bvh = &bvh;
     }
-    bvh.search = NULL; /* lanes have their own, and one ray goes by the chapters */
+    bvh.search = NULL; /* lanes have their own, and one ray alone follows the chapters */
     job.scene = &indexed;
 #if RT__LANES > 1
     if (lanes > 1)
@@ -5762,19 +5775,19 @@ RTDEF rt_status rt_render(const rt_scene *scene, const rt_camera *camera,
 /* ====================================================================================
  * Lanes: what a core does with 4, 8 or 16 numbers at once
  *
- * A core of today adds 4, 8 or 16 floats with the one instruction that adds one. The
- * vectors are those of gcc and clang, for which + - * / are written as for numbers; the
- * rest is in a table for each machine. One program has one number of lanes.
+ * A modern core adds 4, 8 or 16 floats with one instruction, as fast as it adds one. The
+ * vectors are those of gcc and clang, which take + - * / as numbers do; the rest is in a
+ * table for each machine. A program has one number of lanes.
  * ==================================================================================== */
 #if RT__LANES > 1
 
-#if defined(RT__X86) && RT__LANES == 8 /* what follows may use AVX2, the rest must not */
+#if defined(RT__X86) && RT__LANES == 8 /* only what follows may use AVX2 */
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
 #else
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
-#pragma GCC optimize("fp-contract=off") /* else only these would contract */
+#pragma GCC optimize("fp-contract=off") /* otherwise only these would contract */
 #endif
 #endif
 
@@ -5820,7 +5833,7 @@ typedef __mmask16 rt__m;
                                                          _mm512_loadu_ps(table))         \
                            : _mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff,       \
                                                       (__m512i)(at), table, 4)))
-#else /* elsewhere -1 in each lane that is true, and 0 */
+#else /* elsewhere -1 in each lane that is true, 0 in the others */
 typedef rt__i rt__m;
 #define rt__less(a, b) ((a) < (b))
 #define rt__and_less(m, a, b) ((m) & ((a) < (b)))
@@ -6015,8 +6028,8 @@ RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
 /* ====================================================================================
  * Packets: 4, 8 or 16 rays at a time
  *
- * Here are the chapters once more, 1 to 7 and then part two, for a packet of neighbouring
- * pixels, each in its lane:
+ * Here chapters 1 to 7, and then part two, are written once more for a packet of
+ * neighbouring pixels, each in its lane:
  *
  *     lane               0     1     2     3   ...
  *     pixel             0,0   1,0   2,0   3,0        neighbours in a row
@@ -6026,17 +6039,18 @@ RT__INLINE rt__f3 rt__vjoin(const rt__d3 *two)
  *     m = a < b         yes   yes   no    no         rt__m: a mask
  *     select(m, a, b)  -2.0   0.5   1.0   1.0        what takes the place of if
  *
- * All lanes go the same way: both sides of an if are computed, and each lane selects its
- * own. A comment before each function names those of the chapters that it repeats.
+ * All lanes take the same steps: both sides of an if are computed, and each lane selects
+ * its own. A comment before each function names the functions of the chapters that it
+ * repeats.
  *
- * Every lane gets the bits that the chapters give. Mostly that is plain: the same
- * operations in the same order. The sphere is the exception. It needs double, of which
- * only half as many fit, and most spheres are not hit. So all shapes are asked in float
- * first, with a bound for the error, and only the nearest is done as chapter 1 does it.
- * If it is nearer than any other can be, it is the nearest. If not, this ray goes alone
- * through the tree of chapter 8. Shadows likewise: yes, no, or in doubt alone.
+ * Every lane gets the bits that the chapters give. Mostly that is easy: the same
+ * operations in the same order. The sphere is the exception. It needs double, and only
+ * half as many doubles fit; and most spheres are not hit. So all shapes are first asked
+ * in float, with a bound for the error, and only the nearest is computed as in chapter 1.
+ * If it is nearer than any other can be, it is the hit. If not, this ray goes through the
+ * tree of chapter 8 alone. Shadows likewise: yes, no, or if in doubt, alone.
  *
- * That is for few shapes. If they are many, all rays go through the tree alone.
+ * That is for few shapes. If there are many, all rays go through the tree alone.
  * ==================================================================================== */
 
 /* ---- the shapes, and where rays start -------------------------------------------- */
@@ -6052,14 +6066,14 @@ RT__INLINE rt__f3 rt__row(const rt__column *c, int i)
     return rt__vall(rt_vec(c->x[i], c->y[i], c->z[i]));
 }
 
-/* Where the rays of a packet start: the rays to the lights and the next bounce start at
- * the same point, so they share, for each sphere, c of chapter 1,
+/* Where the rays of a packet start. The rays to the lights and the next bounce start at
+ * the same point, so for each sphere they share the c of chapter 1,
  *
  *     c = |C - O|^2 - R^2 = <C,C> - <O,2C> + (|O|^2 - R^2).
  *
  * That is a small difference of large numbers, in float but for the last term, which was
- * taken in double. With s = |C| + max(|O|, R) none of them is larger than s^2, and each
- * of 9 roundings is 2^-24 of it at most. So, with some room for what comes below,
+ * computed in double. With s = |C| + max(|O|, R), no term is larger than s^2, and each of
+ * 9 roundings is at most 2^-24 of it. So, with some room for what comes below,
  *
  *     |error of c|  <  doubt = 2^-18 s^2,        low = c - doubt. */
 typedef struct rt__place {
@@ -6067,9 +6081,9 @@ typedef struct rt__place {
     rt__f size;    /* |C|, scaled by RT__DOUBT */
     rt__i left;    /* the number n of the sphere that the ray leaves on its outside, ~n on
                       its inside, or RT__NOWHERE. It is met at t = 0, which is no hit */
-    rt__f low[RT__FEW];   /* of each sphere: c is this or more */
+    rt__f low[RT__FEW];   /* for each sphere: c is this or more */
     bool beside[RT__FEW]; /* does a ray start in or near it, or is a light there? */
-    bool any_beside;      /* else beside is not set */
+    bool any_beside;      /* if false, beside is not set */
 } rt__place;
 
 #define RT__NOWHERE INT_MAX
@@ -6110,12 +6124,12 @@ typedef struct rt__hits {
     rt__i left; /* of the next place */
     rt__f3 point, normal, albedo;
     rt__f t;      /* part two wants to know these, too; */
-    rt__i shape;  /* of a miss they are anything, but shape is a number that there is */
+    rt__i shape;  /* for a miss they are anything, but shape is a valid number */
     rt__i inside; /* of a mesh or custom shape, see rt_hit */
 } rt__hits;
 
-/* The nearest shape so far, by key = -a t: the larger, the nearer. That of shape number
- * at is best or less; that of every other is others or less. */
+/* The nearest shape so far, by key = -a t: the larger, the nearer. The key of shape
+ * number at is best or less; that of every other shape is others or less. */
 typedef struct rt__nearest {
     rt__f best, others;
     rt__i at;
@@ -6132,8 +6146,8 @@ RT__INLINE void rt__offer(rt__nearest *n, rt__f key, rt__i at)
     n->at = rt__iselect(nearer, at, n->at);
 }
 
-/* b = <C - O, u> = <C,u> - <O,u>, of which the first is the same for all spheres. Wrong
- * by 7 roundings of s |u|, less than 2^-21 s |u|. */
+/* b = <C - O, u> = <C,u> - <O,u>; the first term is the same for all spheres. The error
+ * is 7 roundings of s |u|, less than 2^-21 s |u|. */
 RT__INLINE rt__f rt__b(const rt__table *s, int i, rt__f3 u, rt__f cu)
 {
     const rt__f3 o = rt__row(&s->place, i);
@@ -6141,9 +6155,9 @@ RT__INLINE rt__f rt__b(const rt__table *s, int i, rt__f3 u, rt__f cu)
 }
 
 /* rt__meet_sphere: -a t = b + sqrt(b^2 - a c). With low in place of c that is never too
- * small, as (b^2 - a c) / a is wrong by 29 roundings of s^2, less than doubt. If the rays
- * start outside and go away, b > 0, then min(b, 0) leaves a negative discriminant, of
- * which the root is NaN. */
+ * small, since (b^2 - a c) / a is wrong by 29 roundings of s^2, less than doubt. If the
+ * rays start outside and go away, b > 0, then min(b, 0) leaves a negative discriminant,
+ * whose root is NaN. */
 RT__INLINE rt__f rt__sphere_key(const rt__table *s, const rt__place *p, int i, rt__i here,
                                 rt__f b, rt__f a)
 {
@@ -6151,15 +6165,16 @@ RT__INLINE rt__f rt__sphere_key(const rt__table *s, const rt__place *p, int i, r
     const rt__f key = b + rt__fsqrt(rt__fnma(a, low, b * rt__fmin(b, zero)));
     if (__builtin_expect(!p->any_beside, 1) || !p->beside[i])
         return key;
-    /* Inside it is the larger root; too near to the surface to tell, t may be 0. */
+    /* Inside it is the larger root. Too near to the surface to tell, t may be 0. */
     const rt__f size = p->size + s->size[i], doubt = size * size;
     const rt__m inside = rt__less(low, -3.0f * doubt) | rt__same(p->left, ~here);
     const rt__f root = rt__fsqrt(rt__fmax(rt__fnma(a, low + 2.0f * doubt, b * b), zero));
     return rt__select(inside, b - root, rt__select(rt__less(low, doubt), zero, key));
 }
 
-/* What rays do with boxes. With 1/u in place of u they enter and leave within 3 roundings
- * of t. Of rays parallel to a face nothing is sure: they may run in its very plane. */
+/* What rays do with boxes. With 1/u in place of u, they enter and leave within 3
+ * roundings of t. For rays parallel to a face nothing is sure: they may run in its very
+ * plane. */
 typedef struct rt__slab_rays {
     rt__f3 origin, inverse;
     rt__m parallel;
@@ -6211,8 +6226,8 @@ RT__INLINE rt__nearest rt__ask_all(const rt__table *s, const rt__place *p, rt__f
     return n;
 }
 
-/* rt__meet_sphere and rt__hit_sphere_at in double, each lane with its own sphere; but not
- * what they do in rare cases, see rt__find. Returns t. */
+/* rt__meet_sphere and rt__hit_sphere_at in double, each lane with its own sphere, but
+ * without their rare cases: see rt__find. Returns t. */
 RT__INLINE rt__f rt__finish_spheres(const rt__place *p, rt__f3 u, rt__f3 center,
                                     rt__f radius, rt__hits *hits)
 {
@@ -6266,8 +6281,8 @@ RT__INLINE void rt__cut_axis(rt__cuts *cuts, int axis, rt__f low, rt__f high, rt
     cuts->miss |= outside | past;
 }
 
-/* One coordinate of normal and point: on the plane, if the ray comes or goes through one
- * of this axis; else as rt__pull has it. */
+/* One coordinate of normal and point: on the plane, if the ray enters or leaves through
+ * one of this axis; otherwise as in rt__pull. */
 RT__INLINE void rt__face(rt__m here, rt__m inside, rt__f o, rt__f u, rt__f low,
                          rt__f high, rt__f *normal, rt__f *point)
 {
@@ -6319,9 +6334,8 @@ RT__NOINLINE rt__m rt__finish_boxes(const rt__table *s, const rt__f3 *origin,
 static void rt__find_in_tree(const rt_scene *scene, const rt__f3 *origin,
                              const rt__f3 *direction, unsigned lanes, rt__hits *hits);
 
-/* Meshes and custom shapes are asked by one ray after the other, in the tree. Which rays
- * may meet one before t_max? Those that enter the box around it, or are parallel to a
- * face. */
+/* Rays ask meshes and custom shapes one after the other, in the tree. Which rays may meet
+ * one before t_max? Those that enter the box around it, or are parallel to a face. */
 RT__NOINLINE rt__m rt__near_others(const rt__table *s, const rt__f3 *origin,
                                    const rt__f3 *direction, const rt__f *t_max)
 {
@@ -6357,12 +6371,12 @@ RT__INLINE void rt__find(const rt__job *job, const rt__place *p, rt__f3 u, rt__m
     hits->albedo = rt__vpick(&s->albedo, n.at, s->count);
     hits->t = t;
     hits->shape = n.at;
-    /* Nearer than any other? The key of another sphere is wrong by b and two roundings
-     * more, a and t of this one by some; in all by less than 2^-19 s |u|. */
+    /* Nearer than any other? The key of another sphere has the error of b and two
+     * roundings more, a and t of this one have some: in all less than 2^-19 s |u|. */
     const rt__f slack = (p->size + s->largest) * (1.9073486328125e-6f / RT__DOUBT);
     const rt__f limit = n.others + slack * (0.5f * a + 0.5f); /* not less than |u| */
-    /* Left to chapter 1: t = 0; from afar, where it takes another way; and so flat that
-     * it is not sure which side the ray comes from. */
+    /* Left to chapter 1: t = 0; rays from afar, for which it has another formula; and
+     * rays so flat that it is not sure which side they come from. */
     const rt__m sphere = rt__less(zero, r);
     const rt__m good = sphere & rt__less(rt__all(1e-30f), t) & rt__less(limit, a * -t) &
                        rt__less(t * t * a, r * r * 8e9f) &
@@ -6408,7 +6422,7 @@ RT__INLINE rt__boxes rt__eight(const float *values)
     return v;
 }
 
-/* Which columns of a leaf have a shape? */
+/* Which columns of a leaf hold a shape? */
 RT__INLINE unsigned rt__columns(const rt_bvh_row *row)
 {
 #if RT__LANES > 4
@@ -6425,7 +6439,7 @@ RT__INLINE rt__boxes rt__babs(rt__boxes v)
     return rt__bmax(v, -v);
 }
 
-/* A ray, and what is the same for all that it asks. */
+/* A ray, and what all its questions share. */
 typedef struct rt__probe {
     rt_ray ray;
     rt_vec3 inverse;
@@ -6439,10 +6453,10 @@ typedef struct rt__probe {
     int row[3];                        /* where the coordinates that become x, y, z are */
 } rt__probe;
 
-/* Not all rays are fit: the squares of short and long directions are no good floats. And
- * the sums and products of those that are must not overflow, unless they are almost
- * parallel to an axis. Those stay in a box by its margin of 1e-15, which rt__inverse
- * makes 1e22, so no t may be as large: 3e16 / 1e-5 is not. */
+/* Not all rays are fit: the squares of very short and long directions are no good floats.
+ * And sums and products must not overflow, unless the ray is almost parallel to an axis.
+ * Such rays stay in a box thanks to its margin of 1e-15, which rt__inverse turns into
+ * 1e22. So no t may be as large, and 3e16 / 1e-5 is not. */
 RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray *ray)
 {
     const rt_vec3 o = ray->origin, u = ray->direction;
@@ -6477,10 +6491,10 @@ RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray 
     return true;
 }
 
-/* rt__enter, for the boxes k to k + RT__STEP - 1: they are met if *t <= *out. It knows
- * by octant through which plane of each axis the ray comes. Infinite planes stand where
- * there is no box, and are never met. p->in in place of the inverse makes the ways in
- * shorter by 8 roundings; up to 4 were too long, and the ways out up to 3 too short. */
+/* rt__enter, for the boxes k to k + RT__STEP - 1: they are met if *t <= *out. The octant
+ * tells through which plane of each axis the ray enters. Where there is no box the planes
+ * are infinite, and never met. p->in in place of the inverse makes the ways in shorter by
+ * 8 roundings; they were up to 4 too long, and the ways out up to 3 too short. */
 RT__INLINE void rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p, float t_max,
                                 int k, rt__boxes *t, rt__boxes *out)
 {
@@ -6497,22 +6511,23 @@ RT__INLINE void rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p, flo
     *out = rt__bmin(rt__bmin(out_x, out_y), rt__bmin(out_z, t_max - zero));
 }
 
-/* Which spheres of a leaf may the ray meet before t_max? All of those that it does meet,
- * and hardly any other: here is why none is missed.
+/* Which spheres of a leaf may the ray meet before t_max? The answer has all that it does
+ * meet, and hardly any other. This is why none is missed.
  *
- * With g = O - C the point nearest to the centre is at t = b = <g,u> / <u,u>, and the
- * ray meets the sphere if l = g - b u is not longer than R; then between b - h and b +
- * h, h = sqrt(R^2 - l^2) / |u|. Let e = 2^-24. Rounding g, <g,u>, <u,u>, the quotient
- * makes b u wrong by 9 e |g| at most; with g itself and l, l is wrong by less than 14 e
- * |g|. And for any k, (R + d)^2 <= (1 + k) R^2 + (1 + 1/k) d^2. So with k = 0.0009
+ * With g = O - C, the point nearest to the centre is at t = b = <g,u> / <u,u>. The ray
+ * meets the sphere if l = g - b u is not longer than R, between b - h and b + h with h =
+ * sqrt(R^2 - l^2) / |u|. Let e = 2^-24. Rounding g, <g,u>, <u,u> and the quotient makes b
+ * u wrong by 9 e |g| at most; with the rounding of g itself and of l, l is wrong by less
+ * than 14 e |g|. And for any k, (R + d)^2 <= (1 + k) R^2 + (1 + 1/k) d^2. So with k =
+ * 0.0009
  *
  *     l^2 as computed  <=  (R + 14 e |g|)^2 (1 + 4e)  <  1.00091 R^2 + 8e-10 g^2,
  *
- * less than reach below, where 1e-30 makes good what squares lose that are too small for
- * a float. With k = 0.0005 likewise (|u| h)^2 as computed >= R^2 - l^2 + 0.0004 R^2, so
- * h is too large by 0.0001 R / |u| or more. b is wrong by 9 e |g| / |u|, and |g| <= |b
- * u| + R: the first part, and the rounding of t, is less than 1e-6 |b|, the second less
- * than what h has too much. */
+ * less than reach below; its 1e-30 makes up for squares too small for a float. Likewise,
+ * with k = 0.0005, (|u| h)^2 as computed >= R^2 - l^2 + 0.0004 R^2, so h is too large by
+ * 0.0001 R / |u| or more. b is wrong by 9 e |g| / |u|, and |g| <= |b u| + R. The part
+ * from |b u|, with the rounding of t, is less than 1e-6 |b|; the part from R is less than
+ * the excess of h. */
 RT__INLINE unsigned rt__near_spheres(const rt_bvh_row *row, const rt__probe *p,
                                      float t_max, int k)
 {
@@ -6537,7 +6552,7 @@ RT__INLINE unsigned rt__near_spheres(const rt_bvh_row *row, const rt__probe *p,
            rt__bat_most(zero, end);
 }
 
-/* Which boxes, or boxes around custom shapes? As in rt__enter_boxes; they are made a
+/* Which boxes, or boxes around custom shapes? As in rt__enter_boxes; the boxes are made a
  * little larger, as in rt__with_margin. */
 RT__INLINE unsigned rt__near_boxes(const rt_bvh_row *row, const rt__probe *p, float t_max,
                                    int k)
@@ -6577,13 +6592,13 @@ RT__INLINE void rt__shear_corner(const rt_bvh_row *row, const rt__probe *p, int 
 /* Which triangles? The weights of chapter 16 in float, and a bound for their error.
  *
  * Let e = 2^-24, R the largest sheared coordinate of a triangle, Z the largest z. p - C
- * is rounded once, the factor u_x / u_z, which is at most 1, once, and their sum: x and y
- * are wrong by e (2 R + 5 Z) at most, less than error = 6 e (R + Z); so much less that
- * the rounding of error and bound does not count. Then each of the two products of a
- * weight is wrong by 2 R error + error^2, and the three roundings add 4 e R^2; 1e-37
- * makes good what products lose that are too small for a float. Double, which chapter 16
- * takes, is wrong by next to nothing beside that. So if the ray is inside for chapter 16,
- * no weight is below -bound, or none is above bound. */
+ * is rounded once, and so are the factor u_x / u_z, which is at most 1, and the sum. So x
+ * and y are wrong by e (2 R + 5 Z) at most. That is less than error = 6 e (R + Z), by so
+ * much that the rounding of error and bound does not count. Then each of the two products
+ * of a weight is wrong by 2 R error + error^2, and the three roundings add 4 e R^2; 1e-37
+ * makes up for products too small for a float. The error of double, which chapter 16
+ * takes, is next to nothing beside that. So if the ray is inside for chapter 16, no
+ * weight is below -bound, or none is above bound. */
 RT__INLINE unsigned rt__near_triangles(const rt_bvh_row *row, const rt__probe *p, int k)
 {
     const float e = 0.5f * FLT_EPSILON;
@@ -6641,7 +6656,7 @@ RT__INLINE rt__corners rt__column_corners(const rt_bvh_row *row, int column)
     return corners;
 }
 
-/* rt__meet_shape, of what the leaf has of it. */
+/* rt__meet_shape, from what the leaf holds of the shape. */
 RT__INLINE double rt__meet_column(const rt_scene *scene, const rt_bvh_row *row, int kind,
                                   int column, const rt__probe *p, float t_max,
                                   rt_dvec3 *weights)
@@ -6697,7 +6712,7 @@ RT__INLINE bool rt__hit_column(const rt_scene *scene, const rt__found *found,
     return true;
 }
 
-/* rt__ask_leaf: all in float, and the few that may be met once more in double. */
+/* rt__ask_leaf: all shapes in float, then the few that may be met in double. */
 RT__INLINE bool rt__ask_rows(const rt_scene *scene, int leaf, const rt__probe *p,
                              bool any, rt__found *found)
 {
@@ -6731,8 +6746,8 @@ RT__INLINE bool rt__ask_rows(const rt_scene *scene, int leaf, const rt__probe *p
     return false;
 }
 
-/* What waits: as rt__item, but in two arrays, with room for eight that are written at
- * once though only some of them count. */
+/* What waits: like rt__item, but in two arrays. They have room for eight more, which are
+ * written at once though only some of them count. */
 typedef struct rt__stack {
     float t[RT__WAITING + 8];
     int inside[RT__WAITING + 8];
@@ -6741,7 +6756,7 @@ typedef struct rt__stack {
 
 #if RT__LANES > 4
 #if RT__LANES == 8
-/* For each of 256 masks: the places of its ones, from the lowest, three bits each. */
+/* For each of 256 masks: the places of its ones, from the lowest up, three bits each. */
 #define RT__ONES(m)                                                                      \
     (((m)&1u) + ((m) >> 1 & 1u) + ((m) >> 2 & 1u) + ((m) >> 3 & 1u) + ((m) >> 4 & 1u) +  \
      ((m) >> 5 & 1u) + ((m) >> 6 & 1u))
@@ -6766,9 +6781,9 @@ RT__INLINE __m256i rt__unpack(uint32_t places)
                              _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21));
 }
 
-/* Enter a node. *met: is a box met? Returns what is inside of the first; the others are
- * put on the stack, the next one last, all at once: a loop over them would go so many
- * times as no core can guess. If any hit will do, so does any order. */
+/* Enter a node. *met: is a box met? Returns what is inside the first; the others go onto
+ * the stack, the next one last. They go all at once, since no core can predict how often
+ * a loop over them would run. If any hit will do, so does any order. */
 RT__INLINE int rt__enter_node(rt__stack *stack, const rt_bvh_node *node,
                               const rt__probe *p, float t_max, bool any, bool *met)
 {
@@ -6838,7 +6853,7 @@ RT__INLINE int rt__enter_node(rt__stack *stack, const rt_bvh_node *node,
 #endif
 
 /* rt__search; but boxes come in the order of the octant, not of t, and the next one does
- * not go by way of the stack. */
+ * not pass through the stack. */
 RT__INLINE bool rt__search_rows(const rt_scene *scene, const rt__probe *p, bool any,
                                 rt__found *found)
 {
@@ -6899,9 +6914,9 @@ RT__NOINLINE bool rt__any_in_tree(const rt_scene *scene, const rt_ray *ray)
                                          : rt__occluded_bvh(scene, ray, 1.0f);
 }
 
-/* For who asks for one ray. Only rays that are almost parallel to an axis raise
- * exceptions that the chapters do not, since products may overflow: with traps off then,
- * and the flags put back. (The empty instructions keep the search in between.) */
+/* For callers with one ray. Only rays that are almost parallel to an axis raise
+ * exceptions that the chapters do not, since products may overflow. For those, traps are
+ * off and the flags are restored. (The empty instructions keep the search in between.) */
 static bool rt__search_alone(const rt_scene *scene, const rt_ray *ray, float t_max,
                              rt_hit *hit)
 {
@@ -6978,14 +6993,14 @@ RT__NOINLINE rt__m rt__shade_in_tree(const rt_scene *scene, const rt__f3 *origin
 
 /* ---- chapter 4: shadows ---------------------------------------------------------- */
 
-/* Who does not see the light at t = 1? */
+/* Which lanes do not see the light at t = 1? */
 typedef struct rt__shade {
     rt__m sure, may;
 } rt__shade;
 
 /* A sphere that a ray may start in, or end in. f(t) = a t^2 + 2 b t + c is negative
- * inside it, f(0) = c, f(1) = a + 2b + c: if one end is inside and the other is not, then
- * the way crosses the surface. If both are outside, it is as in rt__shade_all. */
+ * inside it, f(0) = c, f(1) = a + 2b + c: if one end is inside and the other is not, the
+ * way crosses the surface. If both are outside, rt__shade_all tells. */
 RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt__f b,
                                rt__f a, rt__shade *shade)
 {
@@ -7006,8 +7021,9 @@ RT__INLINE void rt__shade_near(const rt__table *s, const rt__place *p, int i, rt
 
 /* rt_occluded up to t = 1, of a scene with few shapes. No root is needed: where both ends
  * are outside, the sphere is in the way if the point nearest to its centre, t = -b/a, is
- * on it and inside, b^2 / a > c. (Both are outside by more than doubt, else the sphere is
- * beside a ray: see rt__start_at. The end is the light but for rounding u.) */
+ * on it and inside, b^2 / a > c. (Both are outside by more than doubt; otherwise the
+ * sphere is beside a ray: see rt__start_at. The end is the light but for the rounding of
+ * u.) */
 RT__INLINE rt__shade rt__shade_all(const rt__table *s, const rt__place *p, rt__f3 u)
 {
     const rt__f a = rt__dot(u, u), cu = rt__dot(p->origin, u), zero = rt__all(0.0f);
@@ -7053,8 +7069,8 @@ RT__INLINE rt__f3 rt__leave(rt__f3 point, rt__f3 normal, rt__m below)
     return rt__add(point, rt__scale(normal, rt__select(below, -offset, offset)));
 }
 
-/* rt_visible: of the lanes that are lit, in front of the surface, which do not see the
- * light? Rays start at the place. */
+/* rt_visible: of the lit lanes, those with the light in front of the surface, which do
+ * not see it? Rays start at the place. */
 RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
                             rt__f3 normal, rt__f3 light)
 {
@@ -7079,7 +7095,8 @@ RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
     return shade.sure;
 }
 
-/* rt_lambert, where the light is in front: the part of it that is sent on, or 0. */
+/* rt_lambert, where the light is in front: the part of the light that is sent on, or
+ * 0. */
 RT__INLINE rt__f rt__lambert(rt__f toward, rt__f dd, rt__m *counts)
 {
     *counts &= rt__less(rt__all(1e-20f), dd);
@@ -7214,9 +7231,9 @@ RT__INLINE rt__f3 rt__cosine(rt__f3 n, rt__f r1, rt__f r2)
 
 /* ---- the whole path -------------------------------------------------------------- */
 
-/* A packet on its way. A lane whose path has ended stays until the last one ends. */
+/* A packet on its way. A lane whose path has ended stays until the last path ends. */
 typedef struct rt__packet {
-    rt__m lanes; /* whose path goes on */
+    rt__m lanes; /* in which the path goes on */
     rt__f3 direction, sum, throughput;
     rt__numbers numbers;
     rt__hits hits;
@@ -7238,7 +7255,7 @@ RT__INLINE void rt__extend(const rt__job *job, rt__packet *p)
                          &p->hits);
 }
 
-/* The next rays start where this one hit, in the lanes below behind the surface. */
+/* The next rays start where this one hit; in the lanes below, behind the surface. */
 RT__INLINE void rt__set_out(const rt__job *job, rt__packet *p, rt__m below)
 {
     const rt__i nowhere = (p->hits.left & 0) + RT__NOWHERE;
@@ -7264,7 +7281,7 @@ RT__INLINE void rt__see_surface(rt__packet *p, rt__m lanes, rt__f3 albedo, rt__f
     rt__see_light(p, lanes, direct);
 }
 
-/* In which lanes it ends there: on all but mirrors, and when they have looked far
+/* In which lanes the first look ends there: on all but mirrors, and once it has gone far
  * enough. */
 RT__INLINE rt__m rt__looked(const rt__job *job, const rt__packet *p, int bounce,
                             rt__m mirror)
@@ -7273,8 +7290,8 @@ RT__INLINE rt__m rt__looked(const rt__job *job, const rt__packet *p, int bounce,
     return last ? p->lanes : p->lanes & rt__no(mirror);
 }
 
-/* rt_first_look, as part of the path. Where the path ends before, since no light is left
- * in it, the guide is still looked for: see rt__guides_of. */
+/* rt_first_look, as part of the path. Where the path ends earlier, because no light is
+ * left in it, the guide is still wanted: see rt__guides_of. */
 RT__NOINLINE void rt__look_first(const rt__job *job, rt__packet *p, int bounce,
                                  rt__m missed, const rt__f3 *light)
 {
@@ -7324,8 +7341,9 @@ RT__INLINE void rt__go_on(const rt__job *job, rt__packet *p, int bounce)
     }
 }
 
-/* ... and the way on. A new kind of material computes its direction here, for all lanes,
- * and is one more select; a rare one asks its chapter's function, lane by lane. */
+/* ... and the way on. A new kind of material would compute its direction here, for all
+ * lanes, and add one more select; a rare one would ask its chapter's function, lane by
+ * lane. */
 RT__INLINE void rt__bounce(const rt__job *job, rt__packet *p, int bounce)
 {
     const rt__f zero = rt__all(0.0f);
@@ -7377,13 +7395,13 @@ RT__INLINE uint64_t rt__trace(const rt__job *job, rt__packet *packets, int count
 
 /* ---- part two: chapters 11 to 15 -------------------------------------------------
  *
- * The same again for rt_radiance_mis: what is not part one is computed for all lanes as
- * soon as one of them wants it. Patterns and skies are the user's functions, called for
- * one lane after the other. What a lamp is, all lanes have in common: that the chapters'
- * own functions tell. */
+ * The same again for rt_radiance_mis: what goes beyond part one is computed for all lanes
+ * as soon as one of them wants it. Patterns and skies are the user's functions, called
+ * for one lane after the other. All lanes share the lamps, so the chapters' own functions
+ * tell about those. */
 
-/* What the surfaces of these shapes have at this offset in rt_surface, which is a float:
- * where the shapes are many, one lane after the other; ... */
+/* The float at this offset in rt_surface, for these shapes: where there are many shapes,
+ * one lane after the other; ... */
 RT__NOINLINE rt__f rt__gather(const rt_surface *surfaces, size_t offset, rt__i shape,
                               unsigned lanes)
 {
@@ -7397,7 +7415,7 @@ RT__NOINLINE rt__f rt__gather(const rt_surface *surfaces, size_t offset, rt__i s
     return result;
 }
 
-/* ... else from the table. */
+/* ... otherwise from the table. */
 RT__INLINE rt__f rt__of_surface(const rt__job *job, const float *column, size_t offset,
                                 rt__i shape, rt__m lanes)
 {
@@ -7619,8 +7637,8 @@ RT__INLINE rt__f3 rt__aim(const rt_lamp *lamp, rt__f3 point, rt__f r1, rt__f r2,
     return end;
 }
 
-/* rt_meet_lamp of a ball, in double as chapter 1 has it, in these lanes; else 0. What it
- * does from afar is left to it. */
+/* rt_meet_lamp of a ball, in double as in chapter 1, in these lanes; 0 in the others.
+ * Rays from afar are left to it. */
 RT__NOINLINE rt__f rt__meet_ball(const rt_lamp *lamp, const rt__f3 *origin,
                                  const rt__f3 *direction, rt__f t_max, rt__m lanes)
 {
@@ -7681,8 +7699,9 @@ RT__NOINLINE rt__f rt__meet_panel(const rt_lamp *lamp, const rt__f3 *origin,
     return rt__select(met, t, zero);
 }
 
-/* Those of the lanes whose ray may meet the ball. In float, where |C - O|^2 and all else
- * is wrong by less than 2^-20 of itself: who misses it by more than that, misses. */
+/* Those of the lanes whose ray may meet the ball. In float, |C - O|^2 and all else is
+ * wrong by less than 2^-20 of itself, so a ray that misses by more than that does
+ * miss. */
 RT__INLINE rt__m rt__may_meet(const rt_lamp *lamp, rt__f3 origin, rt__f3 u, rt__m lanes)
 {
     const float rr = lamp->radius * lamp->radius;
@@ -7694,7 +7713,7 @@ RT__INLINE rt__m rt__may_meet(const rt_lamp *lamp, rt__f3 origin, rt__f3 u, rt__
                           (rt__less(zero, b) & rt__less(slack, c)));
 }
 
-/* rt__nearest_lamp: its number, in the lanes in which there is one; -1. */
+/* rt__nearest_lamp: its number, or -1 in lanes where there is none. */
 RT__INLINE rt__i rt__nearest_lamps(const rt_scene *scene, const rt__f3 *origin,
                                    const rt__f3 *u, rt__m lanes, rt__f t_max, int but)
 {
@@ -7977,8 +7996,8 @@ RT__INLINE void rt__arrive(const rt__job *job, rt__packet *p, int bounce)
     }
 }
 
-/* rt__first_look_mis, up to the first glass. Through that it looks straight on, which the
- * path does not: from there on it goes alone, see rt__guides_of. */
+/* rt__first_look_mis, up to the first glass. Through glass it looks straight on, which
+ * the path does not, so from there it goes alone: see rt__guides_of. */
 RT__NOINLINE void rt__look_first_mis(const rt__job *job, rt__packet *p, int bounce,
                                      const rt__brdfs *f, rt__m mirror,
                                      const rt__f3 *points)
@@ -7993,8 +8012,8 @@ RT__NOINLINE void rt__look_first_mis(const rt__job *job, rt__packet *p, int boun
     p->looking &= rt__no(p->alone);
 }
 
-/* Where the rays to the lights and those of the next bounce start: behind the surface in
- * the lanes below. Those that went through it are now on its other side. */
+/* Where the rays to the lights and those of the next bounce start: in the lanes below,
+ * behind the surface. Rays that went through it are now on its other side. */
 RT__INLINE void rt__set_out_mis(const rt__job *job, rt__packet *p, rt__m below,
                                 rt__m through)
 {
@@ -8006,7 +8025,7 @@ RT__INLINE void rt__set_out_mis(const rt__job *job, rt__packet *p, rt__m below,
                  rt__iselect(below, left, hits->left));
 }
 
-/* Of the lanes that aim: the light of the lamps, and a direction that is drawn. */
+/* In the lanes that aim: the light of the lamps, and the direction that is drawn. */
 RT__INLINE void rt__draw_way(const rt__job *job, rt__packet *p, const rt__brdfs *f,
                              rt__f3 points, rt__f r1, rt__f r2, uint64_t *rays)
 {
@@ -8025,9 +8044,8 @@ RT__INLINE void rt__draw_way(const rt__job *job, rt__packet *p, const rt__brdfs 
     p->lanes &= rt__no(f->aims & rt__no(rt__less(rt__all(0.0f), density)));
 }
 
-/* All of that, then direct light and the way on. Glass and mirrors know it before any
- * light is asked for: so one place does for the rays to the lights and for the next
- * bounce. */
+/* All of that, then direct light and the way on. Glass and mirrors know the way before
+ * any light is asked, so the rays to the lights and the next bounce can share a place. */
 RT__NOINLINE void rt__pass_on(const rt__job *job, rt__packet *p, int bounce,
                               uint64_t *rays)
 {
@@ -8041,7 +8059,8 @@ RT__NOINLINE void rt__pass_on(const rt__job *job, rt__packet *p, int bounce,
     const rt__m mirror = f.metal & rt__no(f.shiny | f.glass);
     const rt__m none = {0};
 
-    /* the pair for the way on comes after those for the lamps, which only some draw */
+    /* the pair for the way on comes after those for the lamps, which only some lanes
+     * draw */
     rt__numbers numbers = p->numbers;
     numbers.dimension += (rt__u)rt__iselect(f.aims, pairs, pair - 2u);
     rt__f r1, r2;
@@ -8126,7 +8145,7 @@ RT__NOINLINE void rt__through_lens(const rt__job *job, rt__packet *p)
     p->direction = rt__vselect(good, rt__vjoin(d), u);
 }
 
-/* rt__start, rt__look and rt__film_ray: the pixels from number first on. */
+/* rt__start, rt__look and rt__film_ray: the pixels, starting at number first. */
 RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
                           bool guided, rt__packet *p)
 {
@@ -8182,8 +8201,8 @@ RT__INLINE void rt__begin(const rt__job *job, int sample, int first, int last,
     rt__set_out(job, p, none);
 }
 
-/* The guides of the pixels from number first on. Those that the path did not find, the
- * chapters look for: few of them, or what is first seen is glass. */
+/* The guides of the pixels, starting at number first. The chapters look for those that
+ * the path did not find: only few, unless glass is seen first. */
 RT__NOINLINE void rt__guides_of(const rt__job *job, const rt__packet *p, int sample,
                                 int first, int last, rt_guide *guides)
 {
