@@ -3618,31 +3618,30 @@ RTDEF const char *rt_status_text(rt_status status)
         return "not enough memory: take fewer shapes, a smaller picture, or no more than "
                "4096 samples in one call";
     case RT_BAD_POINTER:
-        return "an argument is NULL, or an array of the scene is, or a count is "
-               "negative: "
+        return "an argument or an array of the scene is NULL, or a count is negative: "
                "set the pointer, or the count to 0";
     case RT_BAD_SIZE:
         return "image: make width and height at least 1, their product at most 2^31 - 1, "
-               "done at least 0 and less than that; first and count 0, or a part of the "
-               "picture, which rt_denoise does not take; its result as large";
+               "and done at least 0 and less than the product; make first and count 0, "
+               "or a part of the picture (rt_denoise takes no parts); make its result as "
+               "large as the image";
     case RT_BAD_SAMPLES:
-        return "samples: make options.samples and image.samples at least 0, and both "
-               "together at most 2^31 - 1; rt_denoise wants 2 in the image";
+        return "samples: make options.samples and image.samples at least 0, and their "
+               "sum at most 2^31 - 1; rt_denoise needs 2 in the image";
     case RT_BAD_BOUNCES:
-        return "bounces: make it at least 0; RT_ALL_BOUNCES is all light";
+        return "bounces: make it at least 0, or RT_ALL_BOUNCES for all light";
     case RT_BAD_THREADS: return "threads: make it 1 to 1024, or 0 for all cores";
     case RT_BAD_SAMPLER: return "sampler: make it RT_SOBOL or RT_RANDOM";
     case RT_BAD_ERROR:
-        return "error: make it at least 0, and give image.half memory, or make it 0, as "
-               "it must be for a part of a picture: others would stop elsewhere";
+        return "error: make it 0, or above 0 and give image.half memory; for a part of a "
+               "picture make it 0, since other parts would stop elsewhere";
     case RT_BAD_SECONDS:
-        return "seconds: make it at least 0; 0 is no limit, as it must be for a part of "
-               "a picture: others would stop elsewhere";
-    case RT_BAD_LANES: return "lanes: make it 0, 1, or what rt_lane_count(0) says";
+        return "seconds: make it at least 0 (0: no limit); for a part of a picture make "
+               "it 0, since other parts would stop elsewhere";
+    case RT_BAD_LANES: return "lanes: make it 0, 1, or what rt_lane_count(0) returns";
     case RT_BAD_BVH:
         return "bvh: build it with rt_build_bvh after the last change of the scene, or "
-               "set "
-               "scene.bvh to NULL";
+               "set scene.bvh to NULL";
     case RT_BAD_PIXEL:
         return "pixel: make x and y those of a pixel of the image, and sample at least 0";
     case RT_BAD_CAMERA:
@@ -3650,32 +3649,29 @@ RTDEF const char *rt_status_text(rt_status status)
                "0 and below 180 degrees";
     case RT_BAD_SPHERE:
         return "sphere: make its numbers at most 1e15, the radius above 0, albedo 0 to "
-               "1; "
-               "rt_check_scene tells which sphere";
+               "1; rt_check_scene tells which sphere";
     case RT_BAD_BOX:
         return "box: make its numbers at most 1e15, min at most max in x, y and z, "
-               "albedo "
-               "0 to 1; rt_check_scene tells which box";
+               "albedo 0 to 1; rt_check_scene tells which box";
     case RT_BAD_LIGHT:
         return "light: make its numbers at most 1e15, no intensity negative; "
                "rt_check_scene tells which light";
     case RT_BAD_GUIDES:
-        return "guides: set image.half and image.guides before it is rendered";
+        return "guides: set image.half and image.guides before you render the image";
     case RT_BAD_SURFACE:
         return "surface: make eta 0 or 1 to 4, shininess 0 to 1e6, absorption and "
-               "emission 0 to 1e15; rt_check_scene tells of which shape";
+               "emission 0 to 1e15; rt_check_scene tells which surface";
     case RT_BAD_LAMP:
         return "lamp: make its numbers at most 1e15, no intensity negative, and radius "
-               "at "
-               "least 1e-6, or 0 with sides u and v across each other, of an area of "
-               "1e-12 at least; rt_check_scene tells which lamp";
+               "at least 1e-6, or 0 with sides u and v that span an area of at least "
+               "1e-12; rt_check_scene tells which lamp";
     case RT_BAD_LENS:
         return "lens: make radius 0 to 1e15 and, unless it is 0, focus above 0 and at "
                "most 1e15";
     case RT_BAD_MESH:
         return "mesh: make every index at least 0 and less than position_count, all "
-               "coordinates at most 1e15, albedo 0 to 1, no count negative, no array of "
-               "it NULL; rt_check_scene tells which mesh";
+               "coordinates at most 1e15, albedo 0 to 1, no count negative, and no array "
+               "NULL; rt_check_scene tells which mesh";
     case RT_BAD_CUSTOM_SHAPE:
         return "custom shape: make its box's numbers at most 1e15, min at most max in x, "
                "y and z, albedo 0 to 1, and set its function; rt_check_scene tells which";
@@ -6456,7 +6452,7 @@ typedef struct rt__probe {
 /* Not all rays are fit: the squares of very short and long directions are no good floats.
  * And sums and products must not overflow, unless the ray is almost parallel to an axis.
  * Such rays stay in a box thanks to its margin of 1e-15, which rt__inverse turns into
- * 1e22. So no t may be as large, and 3e16 / 1e-5 is not. */
+ * 1e22. So no t may be that large, and none is: 3e16 / 1e-5 is less. */
 RT__INLINE bool rt__set_probe(rt__probe *p, const rt_scene *scene, const rt_ray *ray)
 {
     const rt_vec3 o = ray->origin, u = ray->direction;
