@@ -3622,9 +3622,9 @@ RTDEF const char *rt_status_text(rt_status status)
                "set the pointer, or the count to 0";
     case RT_BAD_SIZE:
         return "image: make width and height at least 1, their product at most 2^31 - 1, "
-               "and done at least 0 and less than the product; make first and count 0, "
-               "or a part of the picture (rt_denoise takes no parts); make its result as "
-               "large as the image";
+               "done at least 0 and less than the product, and first and count 0 or a "
+               "part of the picture; rt_denoise takes no parts, and a result as large as "
+               "the image";
     case RT_BAD_SAMPLES:
         return "samples: make options.samples and image.samples at least 0, and their "
                "sum at most 2^31 - 1; rt_denoise needs 2 in the image";
@@ -3633,7 +3633,7 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_THREADS: return "threads: make it 1 to 1024, or 0 for all cores";
     case RT_BAD_SAMPLER: return "sampler: make it RT_SOBOL or RT_RANDOM";
     case RT_BAD_ERROR:
-        return "error: make it 0, or above 0 and give image.half memory; for a part of a "
+        return "error: make it 0, or set image.half and make it above 0; for a part of a "
                "picture make it 0, since other parts would stop elsewhere";
     case RT_BAD_SECONDS:
         return "seconds: make it at least 0 (0: no limit); for a part of a picture make "

@@ -1,6 +1,6 @@
-/* What demo 10 does around its filter: take a picture apart, mend the edges, doubt the outcome,
- * put it together again. Plainly, pixel by pixel; rt_denoise does the same for sixteen at a
- * time. */
+/* What demo 10 does around its filter: take a picture apart, mend the edges, doubt the
+ * outcome, put it together again. It takes one pixel at a time; rt_denoise takes
+ * sixteen. */
 #ifndef CLEAN_H
 #define CLEAN_H
 
@@ -21,7 +21,7 @@ typedef struct clean_picture {
     clean_pixel *pixels;
 } clean_picture;
 
-/* What demo 10 has by hand. */
+/* What demo 10 writes by hand. */
 typedef float unlike_function(const clean_pixel *a, const clean_pixel *b);
 typedef clean_pixel smooth_function(const clean_picture *p, int x, int y, int step);
 
@@ -82,7 +82,7 @@ static inline float around(const clean_picture *p, const float *values, int x, i
     return sum / (count + FLT_MIN);
 }
 
-/* values is memory for a number for each pixel. */
+/* values has room for one number per pixel. */
 static inline void take_all_apart(const rt_image *image, clean_picture *p, float *values)
 {
     for (int i = 0; i < p->width * p->height; i++) {
@@ -95,7 +95,8 @@ static inline void take_all_apart(const rt_image *image, clean_picture *p, float
 
 /* ---- 3. edges: a pixel that sees two surfaces is a mixture of two neighbours ----------- */
 
-/* Of which t, from 0 to 1, is it (1-t) first + t second? And how far is it off, squared? */
+/* For which t, from 0 to 1, is it nearest to (1-t) first + t second? *off: how far it is
+ * off, squared. */
 static inline float mixture(const clean_pixel *pixel, const clean_pixel *first,
                             const clean_pixel *second, float *off)
 {
@@ -116,8 +117,8 @@ static inline float mixture(const clean_pixel *pixel, const clean_pixel *first,
     return t;
 }
 
-/* What arrives by way of others; at an edge also as the four pairs of opposite neighbours
- * have it, each with the weight that its guides deserve. */
+/* The light that arrives by way of other surfaces. At an edge the four pairs of opposite
+ * neighbours are asked, too, each with the weight that its guides deserve. */
 static inline rt_vec3 mended(const clean_picture *p, int x, int y,
                              unlike_function *unlike)
 {
@@ -129,7 +130,7 @@ static inline rt_vec3 mended(const clean_picture *p, int x, int y,
     for (int i = 0; i < 4; i++) {
         for (int side = -1; side <= 1; side += 2) {
             const int X = x + side * dx[i], Y = y + side * dy[i];
-            /* above and below the first and last row nobody is asked */
+            /* in the first and last row, only neighbours in the row are asked */
             if (!is_inside(p, X, Y) || (i > 0 && (y == 0 || y == p->height - 1)) ||
                 !pixel_at(p, X, Y)->known)
                 continue;

@@ -19,27 +19,26 @@ void command_help(const demo *d)
            "  --threads N   threads, 1 to 1024 (default 0: all cores)\n"
            "  --lanes N     rays at a time: 1, or all that this build has (default: %s)\n"
            "  --sampler S   random or sobol numbers (default %s)\n"
-           "  --seed N      another seed, another noise (default 0)\n"
+           "  --seed N      another seed gives other noise (default 0)\n"
            "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
            "                or %s.png where there is no folder build)\n"
            "  --explain X,Y only print what happens in this pixel (from chapter 7)\n"
-           "  --denoise     finish the picture: chapter 10 (from chapter 7);\n"
-           "                from chapter 10 it is, unless you say --no-denoise\n"
-           "  --exposure EV brighter by so many stops, each twice the light; or darker, "
-           "-1\n"
+           "  --denoise     take out the noise at the end: chapter 10 (from chapter 7);\n"
+           "                from chapter 10 the default; --no-denoise turns it off\n"
+           "  --exposure EV brighter by EV stops, each twice the light; below 0 darker\n"
            "%s%s"
            "  --no-window   only render and write\n"
            "  --preview     draw the picture in the terminal, too, as it refines\n"
            "  --quiet       print nothing but errors\n"
-           "  --help        this\n\n"
+           "  --help        print this list\n\n"
            "In the window: h shows the keys; s saves, Esc or q ends. Ctrl-C saves what "
            "there is and ends.\n",
            d->name, d->title, d->name, d->name, d->samples, d->bounces,
            d->bounces == 0 ? "; this chapter has none yet" : "",
-           d->render ? "as many as the machine can" : "1; this chapter has no more",
+           d->render ? "as many as possible" : "1; this chapter has only one",
            d->sobol ? "sobol" : "random", d->name, d->name,
            d->texture ? "  --texture FILE a picture for the ball, PNG or JPEG\n" : "",
-           d->mesh ? "  --mesh FILE   your mesh for the teapot: OBJ, PLY, STL, glTF\n"
+           d->mesh ? "  --mesh FILE   your mesh as the teapot: OBJ, PLY, STL, glTF\n"
                    : "");
 }
 
@@ -67,7 +66,7 @@ static bool parse_number(const demo *d, const char *name, const char *word, long
     return good;
 }
 
-/* Digits and a point, whatever the locale says, as a number. */
+/* Read digits and a point as a number, whatever the locale says. */
 static bool read_decimal(const char *digits, double *number)
 {
     char *end = NULL;
@@ -131,7 +130,7 @@ static bool parse_sampler(const demo *d, const char *word, rt_sampler *sampler)
     return good;
 }
 
-/* X,Y: column and row of a pixel. Whether it is in the picture is asked later. */
+/* X,Y: column and row of a pixel. Whether it is in the picture is checked later. */
 static bool parse_pixel(const demo *d, const char *word, settings *s)
 {
     char *comma = NULL, *end = NULL;
@@ -246,7 +245,7 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
     if (s->lanes > 0 && rt_lane_count((int)s->lanes) != s->lanes) {
         const int most = rt_lane_count(0);
         fprintf(stderr, "%s: --lanes: '%lld': this build has 1%s", d->name, s->lanes,
-                most == 1 ? " only (was it compiled without -O?)\n" : "");
+                most == 1 ? " only (compiled without -O?)\n" : "");
         if (most > 1)
             fprintf(stderr, " or %d\n", most);
         return false;
@@ -266,7 +265,7 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
     if (s->denoise && s->samples == 1 && !s->told_to_denoise)
         s->denoise = false;
     if (s->denoise && s->samples == 1)
-        return fprintf(stderr, "%s: --samples: '1': --denoise takes 2 or more\n",
+        return fprintf(stderr, "%s: --samples: '1': --denoise needs 2 or more\n",
                        d->name),
                false;
     const char *dot = strrchr(s->out, '.');

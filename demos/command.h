@@ -14,12 +14,12 @@ typedef struct settings {
     rt_sampler sampler;
     const char *out, *texture, *mesh; /* files; NULL: none */
     bool window, preview, quiet, help, explain, denoise;
-    bool told_to_denoise; /* and not only by default */
+    bool told_to_denoise; /* not only by default */
     long x, y;            /* the pixel to explain */
 } settings;
 
-/* What the words say, into settings that hold the defaults. False: one of them is wrong, and
- * what is wrong has been printed. */
+/* Put what the words say into settings, which hold the defaults. False: a word is wrong,
+ * and one line has said so. */
 bool command_parse(const demo *d, int argc, char **argv, settings *s);
 void command_help(const demo *d);
 

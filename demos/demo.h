@@ -1,5 +1,5 @@
-/* What a demo is, and what there is for it: main.c is the program around it, viewer.h what the
- * reader can do with its picture. No ray tracing here.
+/* What a demo is. main.c is the program around it, viewer.h what the reader can do with
+ * its picture. There is no ray tracing here.
  *
  * A demo supplies the colour of one point of the film, or renders the whole image, and
  * demo_main does the rest. */
@@ -35,20 +35,22 @@ typedef struct demo_line {
     float weight; /* 0 to 1: how much of the light from here arrives */
 } demo_line;
 
-/* What the viewer can do with the scene of a demo; the demos have it from live.h. */
+/* What the viewer can do with the scene of a demo; live.h gives it to the demos. */
 enum { DEMO_STATE = 256 }; /* bytes, at most, for save */
 
 typedef struct demo_live {
-    /* One of its pictures, see viewer_chapter, of the same view; and its direct light only, quickly. */
+    /* Render one of its pictures, see viewer_chapter; and only the direct light in it,
+     * quickly. */
     rt_status (*render)(int stage, const demo_view *view, const rt_options *options,
                         rt_image *image);
     rt_status (*draft)(int stage, const demo_view *view, const rt_options *options,
                        rt_image *image);
-    /* Before pixels of it are rendered in another way: what has moved finds its place. */
+    /* Call it before rendering pixels in another way: it puts what has moved in its
+     * place. */
     void (*prepare)(int stage);
     /* The byte for one channel of a pixel of that picture. */
     unsigned char (*encode)(int stage, float value);
-    /* The camera: round the room, sideways, nearer by a factor; all as it was at first. */
+    /* Move the camera around the room, sideways, nearer by a factor; reset all that moves. */
     void (*orbit)(float right_turns, float up_turns);
     void (*pan)(const demo_view *view, float right_pixels, float up_pixels);
     void (*zoom)(float factor);
@@ -58,8 +60,8 @@ typedef struct demo_live {
     const char *(*name)(int thing);
     void (*drag)(int thing, const demo_view *view, float right_pixels, float up_pixels,
                  bool over_the_floor);
-    /* Change what the thing has beside its place, by the wheel: the lamp's size, the ball's
-     * gloss. False: it has nothing of the kind. In words what it is now. */
+    /* By the wheel, change something else about the thing: the lamp's size, the ball's
+     * gloss. False: there is nothing to change. Then say in words what it is now. */
     bool (*tune)(int stage, int thing, float notches);
     void (*say)(int stage, int thing, demo_text *out);
     /* C code that brings this view back. */
@@ -73,7 +75,8 @@ typedef struct demo_live {
     /* The paths of all samples of the pixel, and their mean, to stdout. */
     rt_status (*explain)(int stage, const rt_options *options, const rt_image *image,
                          int x, int y);
-    /* All that moves, to memory, and back: the number of bytes, at most DEMO_STATE. */
+    /* Save all that moves to memory, and load it; the number of bytes, at most
+     * DEMO_STATE. */
     size_t (*save)(void *to);
     void (*load)(const void *from);
 } demo_live;
@@ -95,12 +98,13 @@ typedef struct demo {
     void (*measure)(int threads);
 
     const demo_live *live; /* NULL: a window in which nothing moves; */
-    int stage;             /* else which of its pictures is the demo's */
+    int stage;             /* otherwise which of its pictures is the demo's */
 
-    /* NULL, or who gets the picture of --texture: linear, row by row from the top. It stays. */
+    /* NULL, or takes the picture of --texture: linear, row by row from the top. It
+     * stays. */
     void (*texture)(const rt_vec3 *pixels, int width, int height);
 
-    /* NULL, or who gets the mesh of --mesh. It stays. */
+    /* NULL, or takes the mesh of --mesh. It stays. */
     void (*mesh)(const rt_mesh *mesh);
 
     /* The byte for one channel of a pixel: demo_linear, demo_gamma or the demo's own. */

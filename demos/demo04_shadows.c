@@ -11,7 +11,8 @@
 static bool visible(const rt_scene *scene, rt_vec3 P, rt_vec3 N, rt_vec3 S)
 {
     /* Start a little above the surface: P is rounded and may lie just below it, where the
-     * ray would hit the surface that it leaves. 8 roundings of the largest coordinate. */
+     * ray would hit the surface that it leaves. The step is 8 roundings of the largest
+     * coordinate. */
     const float size = fmaxf(fmaxf(fabsf(P.x), fabsf(P.y)), fmaxf(fabsf(P.z), 1.0f));
     const float above = rt_dot(N, rt_sub(S, P)) < 0.0f ? -1.0f : 1.0f;
     rt_ray shadow;

@@ -1,13 +1,13 @@
 /* Demo 06: a mirror.
  *
  * Before  every surface sends light in all directions.
- * Now     the sphere at the back sends on the ray itself: reflect it, and ask again what it
+ * Now     the sphere at the back is a mirror: reflect the ray, and ask again what it
  *         meets. Two mirrors could go on for ever, so the ray is sent on 5 times at most;
  *         with one mirror, as here, once is enough.
  * Run     make demo06 */
 #include "live.h"
 
-/* R = I - 2 <I,N> N: the part of I along N is turned round. */
+/* R = I - 2 <I,N> N: the part of I along N is reversed. */
 static rt_vec3 reflect(rt_vec3 I, rt_vec3 N)
 {
     return rt_sub(I, rt_scale(N, 2.0f * rt_dot(I, N)));

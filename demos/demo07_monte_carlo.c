@@ -2,8 +2,8 @@
  *
  * Before  light comes from the lamp only, and shadows are black.
  * Now     every surface lights every other. At each hit ONE random direction is followed,
- *         up to 5 times, and each pixel takes the mean of many such paths. More samples,
- *         less noise: four times as many, half of it.
+ *         up to 5 times, and each pixel takes the mean of many such paths. Four times as
+ *         many samples make half the noise.
  * Run     make demo07                         (or ARGS="--samples 256", and wait a little) */
 #include "live.h"
 

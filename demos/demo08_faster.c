@@ -1,7 +1,7 @@
 /* Demo 08: faster.
  *
  * Before  rt.h's loop ran on all cores; in the report OpenMP "did not work".
- * Now     why not, measured; and 4 to 16 rays at a time. Then the room, as fast as it goes.
+ * Now     why it did not, measured; then the room, 4 to 16 rays at a time.
  * Run     make demo08                          (or ARGS="--threads 1 --lanes 1") */
 #include "live.h"
 #include "loops.h"
@@ -24,8 +24,9 @@ static void one_generator(void)
             value[i][k] = trace_by_rand(i);
 }
 
-/* Wrong: a variable from outside is one for all. (Without "atomic" C would promise nothing.) */
-static volatile int pixel; /* volatile: do look, each time */
+/* Wrong: all threads share a variable from outside. (Without "atomic" C would promise
+ * nothing.) */
+static volatile int pixel; /* volatile: read it each time */
 static void one_variable(void)
 {
     int mine;
@@ -41,7 +42,7 @@ static void one_variable(void)
     }
 }
 
-/* Right: the outer loop, numbers of one's own, variables of one's own. */
+/* Right: the outer loop, and for each thread its own numbers and variables. */
 static void right_loop(void)
 {
 #pragma omp parallel for num_threads(workers) schedule(dynamic, 32)

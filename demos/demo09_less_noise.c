@@ -1,8 +1,8 @@
 /* Demo 09: less noise.
  *
  * Before  random numbers, which fall in clumps and leave gaps.
- * Now     numbers that fill the square evenly: Sobol's points, scrambled. The same rays, and
- *         less noise; and the picture knows how large its error is.
+ * Now     numbers that fill the square evenly: Sobol's points, scrambled. The same rays
+ *         make less noise, and the picture knows how large its error is.
  * Run     make demo09                                       (or ARGS="--error 0.05") */
 #include "live.h"
 #include "noise.h"
@@ -15,8 +15,8 @@ static uint32_t reverse(uint32_t bits)
     return result;
 }
 
-/* Owen's scrambling of reversed bits: each is flipped or not, as the key and the bits below
- * it decide. (Additions and multiplications carry upwards only.) */
+/* Owen's scrambling of reversed bits: the key and the bits below decide whether a bit is
+ * flipped. (Additions and multiplications carry upwards only.) */
 static uint32_t scramble(uint32_t v, uint32_t key)
 {
     v ^= v * 0x3d20adeau;

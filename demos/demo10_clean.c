@@ -1,13 +1,13 @@
 /* Demo 10: a clean picture from few rays.
  *
- * Before  64 samples of each pixel, each for itself.
+ * Before  64 samples per pixel, and each pixel on its own.
  * Now     16 samples, and neighbours that help each other: a filter that knows, from the
- *         camera rays, who sees the same surface.
+ *         camera rays, which pixels see the same surface.
  * Run     make demo10                                     (or ARGS="--samples 4") */
 #include "clean.h"
 #include "live.h"
 
-/* How unlike two pixels are by what they see: 0 in one plane, 1 when better not asked. */
+/* How unlike two pixels are by what they see: 0 in one plane, 1 if better not asked. */
 static float unlike(const clean_pixel *a, const clean_pixel *b)
 {
     const rt_vec3 turned = rt_sub(a->normal, b->normal), way = rt_sub(b->point, a->point);
@@ -16,8 +16,9 @@ static float unlike(const clean_pixel *a, const clean_pixel *b)
            50 * (off_a * off_a + off_b * off_b) / (rt_dot(way, way) + FLT_MIN);
 }
 
-/* How much b has to say to a: about e^-x, where x is how unlike they are and d^2 / noise. d is
- * the difference of their light, and noise six deviations of it, squared. */
+/* How much b has to say to a: about e^-x, where x is how unlike they are, plus d^2 /
+ * noise. d is the difference of their light, and noise is six deviations of it,
+ * squared. */
 static float say(const clean_pixel *a, const clean_pixel *b)
 {
     const float d = mean_of(a->light) - mean_of(b->light);
@@ -26,7 +27,7 @@ static float say(const clean_pixel *a, const clean_pixel *b)
     return root * root * root * root;
 }
 
-/* The mean over 5 x 5 pixels, so many apart, of those that see much the same. */
+/* The mean over 5 x 5 pixels, step apart, each weighted by what it has to say. */
 static clean_pixel smooth(const clean_picture *p, int x, int y, int step)
 {
     static const float spline[5] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};

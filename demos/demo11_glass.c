@@ -1,12 +1,13 @@
 /* Demo 11: glass.
  *
  * Before  a ray is sent on by a mirror, or by chance from a matt surface.
- * Now     glass reflects a part of the light, and bends the rest. The ray throws a coin, and
- *         takes one of the two ways.
+ * Now     glass reflects a part of the light, and bends the rest. The ray tosses a coin,
+ *         and takes one of the two ways.
  * Run     make demo11                                        (or ARGS="--bounces 3") */
 #include "live.h"
 
-/* The part that is reflected, by Fresnel; eta is the index behind the surface over that before. */
+/* The part that is reflected, by Fresnel; eta is the index behind the surface over the
+ * one before. */
 static float fresnel(float cosine, float eta)
 {
     const float sin2 = (1 - cosine) * (1 + cosine) / (eta * eta); /* Snell */
@@ -29,7 +30,7 @@ static bool refract(rt_vec3 I, rt_vec3 N, float eta, rt_vec3 *T)
     return true;
 }
 
-/* Chapter 7's loop; new is what happens at glass. */
+/* Chapter 7's loop; what happens at glass is new. */
 static rt_vec3 radiance(const rt_scene *scene, rt_ray ray, int bounces, rt_rng *rng)
 {
     if (bounces == RT_ALL_BOUNCES) /* by roulette, as in rt.h */
@@ -45,7 +46,7 @@ static rt_vec3 radiance(const rt_scene *scene, rt_ray ray, int bounces, rt_rng *
         if (surface->eta > 0) {
             const bool inside = rt_is_inside(scene, &hit);
             const float eta = inside ? 1 / surface->eta : surface->eta;
-            if (inside) /* the ray comes through the glass, which swallows some light */
+            if (inside) /* the ray comes through the glass, which absorbs some light */
                 throughput =
                     rt_mul(throughput, rt_transmittance(surface->absorption, hit.t));
             const float coin = rt_random(rng);

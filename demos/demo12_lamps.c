@@ -1,6 +1,6 @@
 /* Demo 12: lamps with a size.
  *
- * Before  the lamp is a point, which no ray meets: glass and mirrors throw no light on.
+ * Before  the lamp is a point, which no ray meets: mirrors and glass cast no light.
  * Now     it is a ball. A surface aims at a random point of it, and a ray may meet it by
  *         chance. Both ways count, each with a weight, so that nothing counts twice.
  * Run     make demo12                                      (or ARGS="--samples 64") */
@@ -36,7 +36,7 @@ static rt_vec3 sample_lamp(const rt_lamp *lamp, rt_vec3 point, float r1, float r
     return rt_add(point, rt_scale(direction, t));
 }
 
-/* With which density; the same for all directions that meet it. */
+/* The density of that choice, the same for all directions that meet the lamp. */
 static float lamp_density(const rt_lamp *lamp, rt_vec3 point, rt_vec3 direction)
 {
     (void)direction;

@@ -1,21 +1,21 @@
 /* Demo 13: gloss.
  *
  * Before  a surface is matt, or a perfect mirror.
- * Now     there is all between: a surface of tiny mirrors that do not all face the same way.
+ * Now     there is everything in between: tiny mirrors that do not all face the same way.
  *         The ball at the back becomes brushed metal, the red one gets a coat of lacquer.
  * Run     make demo13                                      (or ARGS="--samples 64") */
 #define rt_sample_gloss sample_gloss
 #define rt_gloss gloss
 #include "live.h"
 
-/* v, made length 1. */
+/* v, scaled to length 1. */
 static rt_vec3 direction_of(rt_vec3 v)
 {
     const float dd = rt_dot(v, v);
     return rt_scale(v, dd > 1e-20f ? 1 / sqrtf(dd) : 0);
 }
 
-/* What hides facets from an eye at this cosine to the normal: 2 cosine / this is left. */
+/* Seen at this cosine to the normal, 2 cosine / this of the facets are not hidden. */
 static float hidden(float cosine, float a2)
 {
     return cosine + sqrtf(a2 + (1 - a2) * cosine * cosine);

@@ -1,9 +1,9 @@
 /* Demo 14: a lens and a sky.
  *
- * Before  the camera is a pinhole: all is sharp. And where the room is open, it is black.
- * Now     it has a lens: sharp is what is as far away as the ball of glass. Outside it is
- *         evening; the sun is a lamp, far away. As its light is much brighter than a screen
- *         can show, the bytes follow the curve of a film.
+ * Before  the camera is a pinhole: all is sharp. Where the room is open, it is black.
+ * Now     it has a lens: what is as far away as the ball of glass is sharp. Outside it is
+ *         evening; the sun is a lamp, far away. Its light is much brighter than a screen
+ *         can show, so the bytes follow the curve of a film.
  * Run     make demo14                                      (or ARGS="--exposure -1") */
 #include "live.h"
 
@@ -35,7 +35,7 @@ static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)
     return rt_radiance_mis(&scene_sky, &bent, view->bounces, rng);
 }
 
-/* The more light there is already, the less a film is blackened by more: 1 - e^-v. */
+/* The more light a film has had, the less it is blackened by more: 1 - e^-v. */
 static unsigned char encode(float value)
 {
     return rt_encode((float)(1 - exp(-(double)value)), 2.2);

@@ -7,8 +7,8 @@
  * Run     make demo15                              (or ARGS="--texture docs/images/demo09.png") */
 #include "live.h"
 
-/* Tiles on the floor, as large as room_tiles says, in two colours by turns. floorf rounds down
- * on both sides of 0, which (int) alone does not. */
+/* Tiles on the floor, as large as room_tiles says, in two alternating colours. floorf
+ * rounds down on both sides of 0, which (int) alone does not. */
 static rt_vec3 tile(const void *data, rt_vec3 P, rt_vec3 N)
 {
     const pattern_checks *checks = data;

@@ -8,8 +8,8 @@
 #define rt_hit_triangle hit_triangle /* in rt.h, too: see "Your own routines" there */
 #include "live.h"
 
-/* The corner as the ray sees it: from its origin, and straight ahead is z, the axis along which
- * u is longest. A step of 1 along it is *step long. */
+/* The corner as the ray sees it: the ray starts at the origin and runs straight along z,
+ * the axis along which u is longest. A step of 1 along z is *step of t. */
 static rt_dvec3 seen_from(const rt_ray *ray, rt_vec3 corner, double *step)
 {
     const rt_dvec3 v = rt_to_double(ray->direction);

@@ -6,11 +6,11 @@
  * Run     make demo17                              (or ARGS="--mesh bunny.obj") */
 #include "live.h"
 
-/* With f = C - O, the middle of its foot, the ray is less than R from the axis while
+/* With O the middle of its foot and f = C - O, the ray is less than R from the axis while
  *
  *     (f_x + t u_x)^2 + (f_z + t u_z)^2 < R^2,
  *
- * and between the ends while 0 < f_y + t u_y < H. What both have in common is inside of the
+ * and between the ends while 0 < f_y + t u_y < H. What both have in common is inside the
  * cylinder, as in chapter 3. */
 static bool hit_cylinder(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
 {

@@ -27,7 +27,7 @@ static bool file_error(const char *who, const char *path)
     return false;
 }
 
-/* A new file in the folder of path, for rename; *name is to be freed. NULL, with errno, on
+/* Open a new file in the folder of path, to be renamed; free *name. NULL, with errno, on
  * failure. */
 static FILE *open_beside(const char *path, char **name)
 {
@@ -52,7 +52,7 @@ static bool written_in_place(const char *path)
     return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
-/* Said before the rendering, not after it. */
+/* Asked before the rendering, not after it. */
 bool files_can_write(const char *who, const char *path)
 {
     struct stat info;
@@ -153,7 +153,7 @@ bool files_is_pfm(const char *path)
     return strcmp(strrchr(path, '.'), ".pfm") == 0;
 }
 
-/* Of a byte the light is (byte / 255)^2.2, as chapter 5 has it. */
+/* The light of a byte is (byte / 255)^2.2, as in chapter 5. */
 rt_vec3 *files_load(const char *who, const char *path, int *width, int *height)
 {
     errno = 0;

@@ -1,5 +1,6 @@
-/* Meshes from files: see load.h. A file may be anything, and the library is large: so another
- * process reads it, with so much memory and time, and what it hands over is checked once more. */
+/* Meshes from files: see load.h. A file may contain anything, and the library is large.
+ * So another process reads it, with limited memory and time, and what it hands over is
+ * checked once more. */
 #define _DEFAULT_SOURCE
 #define _DARWIN_C_SOURCE
 #define _XOPEN_SOURCE 700 /* fork, stat, strcasecmp */
@@ -37,13 +38,14 @@ bool load_mesh(const char *who, const char *path, rt_mesh *mesh)
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-/* At most; more would be too much for this program, or a mistake. */
+/* Limits: more would be too much for this program, or a mistake. */
 enum {
     BYTES = 500000000, /* of the file */
     MEMORY_GB = 4,     /* for reading it */
     SECONDS = 60,
     TRIANGLES = 20000000,
-    CORNERS = 1000 /* of a polygon: cutting it into triangles takes their square */
+    CORNERS = 1000 /* of a polygon: cutting it up takes time in proportion to their
+                      square */
 };
 
 /* What the other process hands over; then come positions and indices. */
@@ -53,7 +55,7 @@ typedef struct head {
 } head;
 
 static const char no_triangles[] = "there are no triangles in it";
-static const char no_such_corner[] = "a triangle has a corner that there is not";
+static const char no_such_corner[] = "a triangle has a corner that does not exist";
 
 const char *load_lacks(void)
 {
@@ -64,7 +66,7 @@ const char *load_lacks(void)
  * The other process
  * ------------------------------------------------------------------------------------- */
 
-/* Not more memory, nor time, than that. (The sanitizers need any amount for themselves.) */
+/* Limit memory and time. (The sanitizers need any amount of memory for themselves.) */
 static void set_limits(void)
 {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -77,7 +79,7 @@ static void set_limits(void)
     alarm(SECONDS);
 }
 
-/* NULL, or what assimp should not work on. */
+/* NULL, or why assimp should not go on with it. */
 static const char *fault_of(const struct aiScene *scene)
 {
     bool some = false;
@@ -95,7 +97,8 @@ static const char *fault_of(const struct aiScene *scene)
     return some ? NULL : no_triangles;
 }
 
-/* The file, in triangles, its parts where they belong, corners that are the same only once. */
+/* Read the file as triangles: its parts where they belong, and equal corners only
+ * once. */
 static const struct aiScene *import(const char *path, char *why, size_t size)
 {
     struct aiPropertyStore *wishes = aiCreatePropertyStore();
@@ -129,7 +132,7 @@ static bool is_triangle(const struct aiFace *face)
     return face->mNumIndices == 3; /* others are points and lines */
 }
 
-/* All triangles, counted, then told. */
+/* Count all triangles, then write them. */
 static void hand_over(const struct aiScene *scene, head *h, FILE *to)
 {
     uint64_t positions = 0, triangles = 0;
@@ -166,7 +169,7 @@ static void hand_over(const struct aiScene *scene, head *h, FILE *to)
     }
 }
 
-/* Into the file. False: not even why there is nothing in it could be written. */
+/* Write the mesh, or why there is none, into the file. False: it could write neither. */
 static bool read_here(const char *path, FILE *to)
 {
     head h = {.why = ""};
@@ -180,7 +183,7 @@ static bool read_here(const char *path, FILE *to)
     return fflush(to) == 0 && !ferror(to);
 }
 
-/* How it ended. */
+/* Let another process do it; returns how that ended. */
 static int read_elsewhere(const char *path, FILE *file)
 {
     int status = -1;
@@ -200,7 +203,7 @@ static int read_elsewhere(const char *path, FILE *file)
  * This one
  * ------------------------------------------------------------------------------------- */
 
-/* NULL, or why it is no mesh for us: every index and every number is looked at. */
+/* NULL, or why it is no mesh for us. Checks every index and every number. */
 static const char *fault(const rt_mesh *mesh)
 {
     bool some = false;
@@ -214,7 +217,7 @@ static const char *fault(const rt_mesh *mesh)
     for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++)
         if (mesh->indices[i] < 0 || mesh->indices[i] >= mesh->position_count)
             return no_such_corner;
-    return some ? NULL : "all its points are one";
+    return some ? NULL : "all its points are the same";
 }
 
 static const char *take_over(FILE *file, rt_mesh *mesh)
@@ -222,7 +225,7 @@ static const char *take_over(FILE *file, rt_mesh *mesh)
     static head h;
     rewind(file);
     if (fread(&h, sizeof h, 1, file) != 1)
-        return "what was read was lost";
+        return "what was read got lost";
     h.why[sizeof h.why - 1] = '\0';
     if (*h.why)
         return h.why;
@@ -237,7 +240,7 @@ static const char *take_over(FILE *file, rt_mesh *mesh)
     const char *why = !p || !i ? "not enough memory"
                       : fread(p, sizeof *p, positions, file) != positions ||
                               fread(i, sizeof *i, indices, file) != indices
-                          ? "what was read was lost"
+                          ? "what was read got lost"
                           : fault(mesh);
     if (why) {
         free(p);
@@ -246,7 +249,7 @@ static const char *take_over(FILE *file, rt_mesh *mesh)
     return why;
 }
 
-/* NULL, or why this is no file to read. */
+/* NULL, or why not to read this file. */
 static const char *refusal(const char *path)
 {
     static const char *const endings[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
@@ -277,7 +280,7 @@ bool load_mesh(const char *who, const char *path, rt_mesh *mesh)
         if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
             why = take_over(file, mesh);
         else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-            why = "that takes more than a minute";
+            why = "reading it takes more than a minute";
         else
             why = "assimp gave up, or needs more than 4 GB";
     }

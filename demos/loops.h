@@ -44,7 +44,7 @@ static rt_vec3 trace(int i, int k)
     return follow(i, rt_random, rt_rng_start((uint32_t)i, (uint32_t)k, 0));
 }
 
-/* With those of rand(), whose one state, behind a lock, serves all threads. */
+/* With numbers from rand(), which has one state, behind a lock, for all threads. */
 static float from_rand(rt_rng *rng)
 {
     rng->key = (uint32_t)rand(); /* NOLINT(cert-msc30-c,cert-msc50-cpp) */
@@ -57,7 +57,7 @@ static rt_vec3 trace_by_rand(int i)
     return follow(i, from_rand, rt_rng_start(0, 0, 0));
 }
 
-/* What is left of any of the loops where the compiler does not know OpenMP. */
+/* What is left of each loop if the compiler does not know OpenMP. */
 static void without_openmp(void)
 {
     for (int i = 0; i < COUNT; i++)

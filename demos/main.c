@@ -1,5 +1,5 @@
-/* The program around a demo: what the command line wants, with a window or without. See demo.h for
- * what a demo is, viewer.h for what there is to do with its picture. */
+/* The program around a demo: it does what the command line wants, with or without a
+ * window. demo.h says what a demo is, viewer.h what can be done with its picture. */
 #define _DEFAULT_SOURCE
 #define _DARWIN_C_SOURCE
 #define _XOPEN_SOURCE 700 /* stat, sigaction */
@@ -71,7 +71,7 @@ static bool save(run *r)
     return files_save_png(r->v.d->name, r->s.out, image->width, image->height, r->bytes);
 }
 
-/* What was asked for by a key: the file; the camera as C code; the pixel in words. */
+/* Give what a key asked for: the file; the camera as C code; the pixel in words. */
 static void attend(run *r)
 {
     viewer *v = &r->v;
@@ -116,7 +116,7 @@ static bool keep_going(void *user, float part)
     }
     if (r->win) {
         window_poll(r->win, v);
-        if (!v->stop) /* else when it has stopped, and all is at its new place */
+        if (!v->stop) /* otherwise once it has stopped, and all is in its new place */
             attend(r);
         if (!v->closed && !v->stop && window_is_due(r->win)) {
             if (viewer_is_denoised(v)) /* on all cores, so not while they render */
@@ -149,7 +149,7 @@ static void print_job(const run *r)
     fflush(stdout);
 }
 
-/* It is done, or was interrupted, or failed. */
+/* Finish up: the rendering is done, was interrupted, or failed. */
 static bool complete(run *r, rt_status status, double took)
 {
     viewer *v = &r->v;
@@ -239,7 +239,7 @@ static int explain(run *r)
  * In a window
  * ------------------------------------------------------------------------------------- */
 
-static run *open_run; /* which has a window */
+static run *open_run; /* the run that has a window */
 
 /* Xlib ends the program when the display is lost. Then at least save what there is. */
 static void display_lost(void)
@@ -273,7 +273,8 @@ static void draw_draft(run *r)
     viewer_draft_took(&r->v, demo_seconds() - start);
 }
 
-/* As many samples as are missing, or until something else is to be done. False: it failed. */
+/* Add the missing samples, or stop when something else is to be done. False: it
+ * failed. */
 static bool refine(run *r)
 {
     viewer *v = &r->v;
@@ -294,7 +295,7 @@ static bool refine(run *r)
     return good;
 }
 
-/* Until it is closed. */
+/* Run the window until it is closed. */
 static bool run_window(run *r)
 {
     viewer *v = &r->v;
@@ -352,7 +353,7 @@ static int show(run *r)
     action.sa_flags = (int)SA_RESETHAND;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error like others, not the end */
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error like any other, not the end */
     if (r->s.window)
         open_window(r);
     const int result = render_and_save(r);
@@ -362,7 +363,7 @@ static int show(run *r)
     return result;
 }
 
-/* What the words ask for and this demo, or this terminal, does not have. */
+/* Say what the command line asks for that this demo, or this terminal, does not have. */
 static void say_what_is_not(run *r)
 {
     const demo *d = r->v.d;
@@ -392,8 +393,8 @@ static rt_options options_of(const settings *s)
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
-/* Compiled for more than this machine has (-march=native, and then copied)? Asked before
- * main, in plain x86-64, as main itself may use what is not there. */
+/* Was this compiled for more than this machine has (-march=native, and then copied)? Ask
+ * before main, in plain x86-64, since main itself may use what is missing. */
 __attribute__((constructor, target("arch=x86-64"))) static void check_machine(void)
 {
     const char *lacks = NULL;
@@ -426,7 +427,7 @@ static bool wrap_texture(const demo *d, const char *path)
     return pixels != NULL;
 }
 
-/* So does the mesh. Where none can be read, the demo has one of its own. */
+/* So does the mesh. Without assimp the demo shows a mesh of its own. */
 static bool take_mesh(const demo *d, const char *path)
 {
     rt_mesh mesh;

@@ -4,7 +4,7 @@
 
 #include "../rt.h"
 
-/* Tiles on the floor, in two colours by turns. */
+/* Tiles on the floor, in two alternating colours. */
 typedef struct pattern_checks {
     float size;
     rt_vec3 even, odd;
@@ -19,7 +19,7 @@ static inline rt_vec3 checker_pattern(const void *data, rt_vec3 P, rt_vec3 N)
     return (column + row) % 2 == 0 ? checks->even : checks->odd;
 }
 
-/* A random number for each point of a lattice of whole numbers, 0 to 1. */
+/* A random number from 0 to 1 for each point of a lattice of whole numbers. */
 static inline float lattice_value(int x, int y, int z)
 {
     const uint32_t bits =
@@ -27,8 +27,9 @@ static inline float lattice_value(int x, int y, int z)
     return (float)(bits >> 8) / 16777216.0f;
 }
 
-/* The same for all points in between: a mean over the eight around it. 3 s^2 - 2 s^3 takes the
- * corners out of it. (K. Perlin, "An image synthesizer", 1985, has slopes in place of values.) */
+/* The same for all points in between: a mean over the eight around it. 3 s^2 - 2 s^3
+ * smooths out the kinks. (K. Perlin, "An image synthesizer", 1985, has slopes in place of
+ * values.) */
 static inline float value_noise(rt_vec3 P)
 {
     const float x = floorf(P.x), y = floorf(P.y), z = floorf(P.z);
@@ -46,7 +47,8 @@ static inline float value_noise(rt_vec3 P)
     return sum;
 }
 
-/* Veins of marble: stripes that noise of all sizes has bent, each half as large, half as much. */
+/* Veins of marble: stripes bent by noise of several sizes, each half as large as the last
+ * and half as strong. */
 static inline rt_vec3 marble_pattern(const void *unused, rt_vec3 P, rt_vec3 N)
 {
     (void)unused;
@@ -62,9 +64,9 @@ static inline rt_vec3 marble_pattern(const void *unused, rt_vec3 P, rt_vec3 N)
                   rt_scale(rt_vec(0.20f, 0.25f, 0.30f), dark));
 }
 
-/* A picture on a ball, thrown onto it from the front and the back; stripes, as long as there is
- * none. (As a map is around the Earth would take atan2f and acosf, and every libm rounds them
- * differently.) */
+/* A picture on a ball, projected onto it from the front and the back; stripes, as long as
+ * there is none. (Wrapping it like a map around the Earth would take atan2f and acosf,
+ * which every libm rounds differently.) */
 typedef struct pattern_picture {
     const rt_sphere *ball;
     const rt_vec3 *pixels; /* linear, row by row from the top */

@@ -49,9 +49,9 @@ static void preview_colour(const progress *p, int x, int y, int columns, int row
     rgb[2] = p->encode(part * sum.z);
 }
 
-/* The picture in half blocks: the upper half of a cell has the colour of the text, the lower
- * that of its background. Each row ends with the colours as they were, so there is nothing
- * to bring back when the program ends, in whatever way. */
+/* Draw the picture in half blocks: the upper half of a cell has the colour of the text,
+ * the lower half that of its background. Each row restores the colours at its end, so
+ * there is nothing to restore when the program ends, however it ends. */
 void progress_preview(progress *p)
 {
     struct winsize size = {.ws_col = 80, .ws_row = 24};

@@ -1,5 +1,5 @@
-/* How far a picture is, on stderr: a bar on a terminal, else a plain line after every quarter; and
- * the picture itself, if it is wanted. */
+/* Shows on stderr how far a picture is: a bar on a terminal, elsewhere a plain line after
+ * every quarter; and the picture itself, if wanted. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
@@ -7,7 +7,7 @@
 
 typedef struct progress {
     bool quiet, preview;
-    const rt_image *picture; /* for the preview, with its bytes: */
+    const rt_image *picture; /* for the preview, and its encoding: */
     unsigned char (*encode)(float value);
     double started; /* in seconds, like the others */
     double due;     /* when the line may be printed again */
@@ -15,10 +15,10 @@ typedef struct progress {
     int preview_rows;
 } progress;
 
-/* part: 0 to 1, of what is wanted; so many samples: where it is too early to tell the time that
- * is left, as nobody knows how many there will be. 0: it can be told. */
+/* part, 0 to 1, of the work is done. samples is 0 if that tells the time left; while it
+ * is too early to know how many samples there will be, it is how many there are. */
 void progress_print(progress *p, double now, double part, int samples);
-void progress_end(const progress *p); /* the bar goes */
+void progress_end(const progress *p); /* remove the bar */
 void progress_preview(progress *p);
 /* How many colours the terminal has: 0 (none, or no terminal), 256, or 2^24. */
 int progress_colours(void);

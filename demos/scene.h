@@ -1,7 +1,7 @@
 /* The room of the report, built up chapter by chapter.
  *
- * Its walls are the outsides of giant spheres: close by, a sphere of radius 940 is almost a
- * plane. Lengths are in units of which the room is 100 wide and 60 high (about feet).
+ * Its walls are the outsides of giant spheres: close by, a sphere of radius 940 is almost
+ * a plane. The room is 100 units wide and 60 high; a unit is about a foot.
  *
  *     y (up)          The spheres are in the order in which the chapters need them, so that
  *     |               a scene is the first few of them: chapter 1 takes one, chapter 2 adds
@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #endif
 
-/* In the window things can be moved; live.h has no const here. */
+/* In the window things can be moved, so live.h defines MOVABLE as nothing. */
 #ifndef MOVABLE
 #define MOVABLE const
 #endif
@@ -73,8 +73,8 @@ static const rt_scene scene_indirect = {.spheres = room_spheres,
 
 #ifndef __cplusplus /* which knows no [ROOM_BALL] = below, and needs no part two */
 
-/* Part two. Surfaces have the numbers of the shapes: the spheres above, then the cube; or in its
- * place the mesh, and then the pedestal. */
+/* Part two. Surfaces are numbered like the shapes: the spheres above, then the cube, or
+ * in its place the mesh and then the pedestal. */
 enum {
     ROOM_BALL = 0,
     ROOM_FLOOR = 4,
@@ -102,8 +102,8 @@ static MOVABLE rt_surface gloss_surfaces[ROOM_SHAPES] = {
     [ROOM_CUBE] = {.eta = 1.5f, .absorption = {0.004f, 0.016f, 0.090f}},
 };
 
-/* In the evening: the sun stands low before the open side of the room, and the sky above it is
- * yellow at the horizon and blue higher up. */
+/* Evening: the sun is low in front of the open side of the room, and the sky is yellow at
+ * the horizon and blue higher up. */
 static MOVABLE rt_lamp room_sun = {.center = {-22000, 16000, 96000},
                                    .radius = 12000,
                                    .intensity = {5e10f, 3.4e10f, 1.8e10f}};
@@ -178,7 +178,7 @@ static const rt_scene scene_patterns = {.spheres = room_spheres,
 
 enum { ON_THE_FLOOR, ON_THE_PEDESTAL, MESH_SCENES };
 
-/* The mesh as it came, NULL: the teapot, and how it gets into the room. */
+/* The mesh as it came (NULL: the teapot), and how it is put into the room. */
 static struct room_model {
     const char *name;
     const rt_vec3 *positions;
@@ -191,7 +191,7 @@ static struct room_model {
 static MOVABLE rt_vec3 room_foot = {30, -20.4f, 6}; /* on the floor */
 static MOVABLE cylinder room_cylinder = {{30, -20.4f, 6}, 10, 8};
 
-/* Both times in the room, as room_prepare makes them. */
+/* The mesh in the room, for each of the two scenes, as room_prepare makes it. */
 static rt_mesh room_meshes[MESH_SCENES];
 static rt_custom_shape room_pedestal = {.material = {{0.32f, 0.13f, 0.06f}, false},
                                         .hit = cylinder_hit,
@@ -244,8 +244,8 @@ static inline void room_make_teapot(void)
     room_model.triangle_count = pot.triangle_count;
 }
 
-/* A mesh in place of the teapot, as large as it: its lowest point comes onto the floor, or onto the
- * pedestal. The arrays must stay. */
+/* Take a mesh in place of the teapot, and make it as large: its lowest point stands on
+ * the floor, or on the pedestal. The arrays must stay. */
 static inline void room_take_mesh(const rt_mesh *mesh)
 {
     rt_dvec3 low = {DBL_MAX, DBL_MAX, DBL_MAX}, high = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
@@ -272,9 +272,9 @@ static inline rt_vec3 room_mesh_place(int which)
     return rt_add(room_foot, rt_vec(0, up, 0));
 }
 
-/* Puts the mesh where it stands in one of the two scenes, and makes the tree anew: before the
- * first picture, and whenever something has moved. Without memory for that rt_render refuses the
- * scene. */
+/* Put the mesh where it stands in one of the two scenes, and build the tree anew: before
+ * the first picture, and whenever something has moved. If memory runs out, rt_render
+ * refuses the scene. */
 static inline void room_prepare(int which)
 {
     static rt_vec3 *placed[MESH_SCENES];

@@ -1,13 +1,14 @@
-/* The teapot of M. Newell, 1975, from the control points that he published: see F. Crow, "The
- * origins of the teapot", IEEE Computer Graphics and Applications 7(1), 1987. It consists of 32
- * Bezier patches of 4 x 4 points. 24 of them turn a curve about the axis y, and are given here by
- * that curve; the others are half of a pipe each, handle and spout. Newell's had no bottom. */
+/* The teapot of M. Newell, 1975, from the control points that he published: see F. Crow,
+ * "The origins of the teapot", IEEE Computer Graphics and Applications 7(1), 1987. It
+ * consists of 32 Bezier patches of 4 x 4 points. 24 of them turn a curve about the y
+ * axis, and are given here by that curve; each of the others is half of a pipe, handle or
+ * spout. Newell's had no bottom. */
 #ifndef TEAPOT_H
 #define TEAPOT_H
 
 #include "../rt.h"
 
-/* So many triangles along each side of a patch, twice. Around there are four patches. */
+/* Each side of a patch is cut into TEAPOT_FINE parts. Four patches go around. */
 enum {
     TEAPOT_FINE = 20,
     TEAPOT_AROUND = 4 * TEAPOT_FINE,
@@ -15,21 +16,21 @@ enum {
     TEAPOT_TRIANGLES = 64 * TEAPOT_FINE * TEAPOT_FINE
 };
 
-/* A mesh that is being made, in the memory of whoever wants it. */
+/* A mesh in the making, in the caller's memory. */
 typedef struct teapot {
     rt_vec3 *positions; /* TEAPOT_POSITIONS of them */
     int *indices;       /* three for each of TEAPOT_TRIANGLES */
     int position_count, triangle_count;
 } teapot;
 
-/* A point of the curve of Bezier with these four control points, t from 0 to 1. */
+/* A point of the Bezier curve with these four control points, t from 0 to 1. */
 static inline float teapot_curve(float a, float b, float c, float d, float t)
 {
     const float s = 1 - t;
     return s * s * s * a + 3 * s * s * t * b + 3 * s * t * t * c + t * t * t * d;
 }
 
-/* A triangle, unless it is none: at the poles a side of a patch is one point. */
+/* Add a triangle, unless it has no area: at the poles a side of a patch is one point. */
 static inline void teapot_triangle(teapot *pot, int a, int b, int c)
 {
     const rt_vec3 *p = pot->positions;
@@ -42,7 +43,8 @@ static inline void teapot_triangle(teapot *pot, int a, int b, int c)
     corners[2] = c;
 }
 
-/* The last two rings of so many points, and two triangles for each of the fields between. */
+/* Join the last two rings of so many points: two triangles for each field between
+ * them. */
 static inline void teapot_join_rings(teapot *pot, int around)
 {
     const int below = pot->position_count - around, above = below - around;
@@ -53,7 +55,7 @@ static inline void teapot_join_rings(teapot *pot, int around)
     }
 }
 
-/* A curve of one or several pieces, of radius and height, is turned about the axis y. */
+/* Turn a curve of radius and height, in one or several pieces, about the y axis. */
 static inline void teapot_turn(teapot *pot, const float (*curve)[2], int pieces)
 {
     for (int row = 0; row <= pieces * TEAPOT_FINE; row++) {
@@ -102,7 +104,7 @@ static inline void teapot_pipe(teapot *pot, const float (*pipe)[5])
     }
 }
 
-/* The whole, about the axis y, 0 to 3 high, the spout to the side of x. */
+/* The whole teapot: its axis is y, it is 3 high from 0, and its spout points along x. */
 static inline void teapot_make(teapot *pot)
 {
     static const float body[13][2] = {{1.4f, 2.25f},

@@ -1,4 +1,5 @@
-/* Text that is put together bit by bit, in memory of the caller's. What is too long is cut off. */
+/* Text that is put together bit by bit in the caller's memory. What is too long is cut
+ * off. */
 #ifndef TEXT_H
 #define TEXT_H
 
@@ -18,7 +19,7 @@ static inline demo_text text_in(char *at, size_t size)
     return (demo_text){at, size, 0};
 }
 
-/* As printf, after what there is. */
+/* Like printf, but adds to the text. */
 #ifdef __GNUC__
 __attribute__((format(printf, 2, 3)))
 #endif

@@ -238,7 +238,7 @@ static void test_what_is_no_mesh(void **state)
     (void)state;
     if (!has_assimp())
         return;
-    static const char no_corner[] = "a triangle has a corner that there is not";
+    static const char no_corner[] = "a triangle has a corner that does not exist";
     static const char no_number[] = "a position is not a number, or larger than 1e15";
     static const struct {
         const char *name, *text, *words;
@@ -248,7 +248,7 @@ static void test_what_is_no_mesh(void **state)
         {"points.obj", SQUARE, "triangles"},
         {"line.obj", SQUARE "f 1 2\nl 1 2\nf 3\n", "there are no triangles in it"},
         {"one-point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n",
-         "all its points are one"},
+         "all its points are the same"},
         {"tiny.obj", "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n", "are one"},
         {"far.obj", SQUARE "f 1 2 99999999\n", "out of range"},
         {"before.obj", SQUARE "f -9 -3 -2\n", "out of range"},
