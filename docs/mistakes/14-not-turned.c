@@ -3,7 +3,7 @@
  * Symptom: everything is blurred by the size of the lens, and nothing is sharp, wherever
  *          the focus is set. Only something infinitely far away would be sharp
  * Cause:   the ray begins at a point of the lens, but keeps the direction of the pinhole's ray
- * Cure:    towards the point in which the pinhole's ray meets the sharp plane
+ * Cure:    aim at the point where the pinhole's ray meets the sharp plane
  * Options:
  */
 #define rt_lens_ray my_lens_ray

@@ -4,8 +4,7 @@
  *          whose points are exact, is as bright as before
  * Cause:   the point is rounded, and half of the time it lies below its surface,
  *          which then shadows itself
- * Cure:    start a little beside the surface, on the side to which the ray goes
- *          (rt_leave)
+ * Cure:    start a little off the surface, on the side to which the ray goes (rt_leave)
  * Options:
  */
 #define rt_leave my_leave
