@@ -10,12 +10,12 @@ CFLAGS  ?= -O3 -fno-math-errno
 BUILD   ?= build
 ARGS    ?=
 
-# MACHINE: compiled for the machine that runs make, which makes packets of 16 rays where it
-# has AVX-512, 8 else. In a lab of mixed machines, "make MACHINE=" gives programs for all.
+# MACHINE: compile for the machine that runs make. Packets have 16 rays if it has AVX-512,
+# otherwise 8. In a lab of mixed machines, "make MACHINE=" makes programs that run on all.
 MACHINE  = $(eval MACHINE := $(shell $(CC) -march=native -E -x c /dev/null >/dev/null 2>&1 && \
     echo -march=native))$(MACHINE)
 
-# -ffp-contract=off: the same bits everywhere; gcc would else contract a*b+c where it can.
+# -ffp-contract=off: the same bits everywhere; otherwise gcc would contract a*b+c where it can.
 FLAGS    = -std=c99 $(CPPFLAGS) $(MACHINE) $(CFLAGS) -ffp-contract=off $(WARNINGS)
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
 OPENMP   = $(eval OPENMP := $(shell .ci/deps openmp '$(CC)'))$(OPENMP)
@@ -23,13 +23,13 @@ STB      = $(shell .ci/deps stb '$(CC)')
 GFX      = $(shell pkg-config --exists SDL2_gfx 2>/dev/null && echo SDL2_gfx)
 SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 $(GFX) 2>/dev/null)) $(GFX:%=-DHAVE_GFX)
 SDL_LIBS = $(shell pkg-config --libs sdl2 $(GFX) 2>/dev/null)
-# assimp reads meshes from files for demos 16 and 17; they do without, too.
+# assimp reads meshes from files for demos 16 and 17; they also work without it.
 ASSIMP   = $(shell pkg-config --exists assimp 2>/dev/null && echo -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp 2>/dev/null)))
 LIBS     = $(LDFLAGS) $(SDL_LIBS) $(shell pkg-config --libs assimp 2>/dev/null)
 CMOCKA   = $(shell pkg-config --cflags --libs cmocka libcjson 2>/dev/null)
 
-# Threads that wait should sleep: else, where other programs run, they take the core from
-# those that they wait for.
+# Waiting threads should sleep: otherwise, beside other programs, they take the core from
+# the threads that they wait for.
 export OMP_WAIT_POLICY ?= passive
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09 demo10 \
@@ -48,7 +48,7 @@ help: ## this list
 deps: ## install what is missing: SDL2, SDL2_gfx, stb, cmocka, cJSON, OpenMP
 	@.ci/deps install '$(CC)'
 
-deps-web: ## likewise for "make web": clang, lld and wasi-libc, node, npm, chromium
+deps-web: ## the same for "make web": clang, lld and wasi-libc, node, npm, chromium
 	@.ci/deps web
 
 deps-docs: ## likewise for the site and the PDF of "make docs": pandoc, chromium, pdfinfo, a maths font
@@ -83,10 +83,10 @@ $(PROGRAM): $(BUILD)/%.o: demos/%.c $(HEADERS)
 
 USERS = tests/compile/run # what users' builds may do
 
-test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)/%) ## run the tests, seconds
+test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)/%) ## run the tests (seconds)
 	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) $(USERS)
 
-# Most tests are linked with rt.o. These look inside of rt.h, or give it memory of their own.
+# Most tests are linked with rt.o. These look inside rt.h, or give it memory of their own.
 WHOLE    = $(filter 12% 13% 14% 15% 17% 18% 19%,$*)
 
 $(BUILD)/rt.o: rt.h
@@ -122,7 +122,7 @@ golden: $(TESTS:%=$(BUILD)/tests/%) ## record the small pictures and hashes to c
 	-GOLDEN=record tests/run $^
 	@tests/check record
 
-check: test ## all that a maintainer runs before a release, minutes
+check: test ## all that a maintainer runs before a release (minutes)
 	@tests/check
 
 check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windows editor standards levels, or see tests/check
@@ -130,7 +130,7 @@ check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windo
 
 # ---------------------------------------------------------------------------- the rest
 
-bench: ## speed against the report's way and other renderers, about two minutes
+bench: ## speed against the report's way and other renderers (two minutes)
 	@CC='$(CC)' CXX='$(CXX)' CFLAGS='$(MACHINE) $(CFLAGS)' OPENMP='$(OPENMP)' BUILD='$(BUILD)' tests/bench/run
 
 bench-rays: ## single rays beside Embree and tinybvh: TINYBVH=where tiny_bvh.h is

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What demo N has that the demo before it had not, in Markdown: docs/changed.sh N SCENES, where
+# What demo N has and the demo before it has not, in Markdown: docs/changed.sh N SCENES, where
 # SCENES is what docs/numbers/scenes.c prints.
 new=$(ls demos/demo$(printf %02d "$1")_*.c) old=$(ls demos/demo$(printf %02d $(($1 - 1)))_*.c)
 work=$(mktemp -d) || exit 1
@@ -7,7 +7,7 @@ trap 'rm -rf "$work"' EXIT
 export LC_ALL=C
 
 functions() { sed -n 's/^static [a-z].*[ *]\([a-z_0-9]*\)(.*/\1/p' "$1" | grep -v '^pixel$' | sort; }
-calls() { # but for those of vectors, which are all over the place
+calls() { # except those of vectors, which are everywhere
     sed 's/\/\*.*//; /^ \*/d' "$1" | grep -oE 'rt_[a-z_]+\(' | tr -d '(' | sort -u |
         grep -vxE 'rt_(vec|add|sub|mul|scale|dot|length|at)'
 }

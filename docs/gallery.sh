@@ -1,8 +1,8 @@
 #!/bin/sh
-# The gallery of mistakes: docs/mistakes.md from docs/mistakes/*.c, each of them a routine of
-# rt.h with one mistake in it, really rendered and really tested.
+# The gallery of mistakes: docs/mistakes.md from docs/mistakes/*.c. Each of them is a routine
+# of rt.h with one mistake in it, rendered and tested for real.
 #   docs/gallery.sh            render the pictures, find the tests that go red, write the page
-#   docs/gallery.sh --check    is what is there what this would make?
+#   docs/gallery.sh --check    fail if anything there is not what this would make
 cc=${CC:-cc} build=${BUILD:-build} page=docs/mistakes.md pictures=docs/images/mistakes
 work=$(mktemp -d "$build/gallery.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
@@ -17,7 +17,7 @@ field() { # FILE NAME: from the comment at the top of a mistake, on one line
         on { sub(/^ \* */, ""); print }' "$1" | paste -s -d ' '
 }
 
-stage() { # NAME: the picture of its chapter, from 11 on
+stage() { # NAME: the picture of its chapter, if that is 11 or later
     case $1 in 1[1-7]-*) echo "-DSTAGE=$((${1%%-*} - 3))" ;; esac
 }
 
@@ -32,7 +32,7 @@ render() { # NAME SUBMISSION OPTIONS
         "$work/$1" --no-window --quiet --out "$work/$1.png" $with
 }
 
-red() { # NAME FILE: which test of its chapter goes red on it, the first
+red() { # NAME FILE: the first test of its chapter that goes red on it
     case $1 in 10-*) test=18 ;; 1[1-7]-*) test=$((${1%%-*} + 9)) ;; *) test=0${1%%-*} ;; esac
     test=$(basename "$(ls tests/"$test"_*.c)" .c)
     $cc -std=c99 -O1 -ffp-contract=off -w -I. -include "$2" -o "$work/$1.test" "tests/$test.c" \

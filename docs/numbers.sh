@@ -3,9 +3,9 @@
 # table, or lines "key: value", or both, into build/numbers/NAME.txt; and docs/changed.sh for
 # each chapter. docs/renew.sh puts what they print into the text.
 #   docs/numbers.sh            all of them
-#   docs/numbers.sh --times    and record new times, on a machine with nothing else to do
+#   docs/numbers.sh --times    and record new times, on an idle machine
 # Times differ from run to run: what docs/numbers/NAME.txt has recorded stays, as long as
-# today's run differs from it in its digits only (of the slow ones, it just stays).
+# today's run differs from it only in its digits (for the slow ones it always stays).
 cc=${CC:-cc} out=${BUILD:-build}/numbers
 flags="-std=c99 -O2 -fno-math-errno -ffp-contract=off $(.ci/deps openmp "$cc")"
 mkdir -p "$out" || exit 1

@@ -2,7 +2,7 @@
 # The pictures of the chapters that no demo makes: docs/pictures/NAME.c renders
 # docs/images/NAME.png, with the options that its first comment names.
 #   docs/pictures.sh            render them
-#   docs/pictures.sh --check    are those that are there what this would make?
+#   docs/pictures.sh --check    fail if one of them is not what this would make
 cc=${CC:-cc} build=${BUILD:-build}
 work=$(mktemp -d "$build/pictures.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT

@@ -1,11 +1,11 @@
 #!/bin/sh
-# Puts the code and the numbers that the pages show into them, so that they cannot grow old.
+# Puts the code and the numbers that the pages show into them, so that they cannot go stale.
 #   docs/renew.sh FILE.md...          rewrite the files that are stale
 #   docs/renew.sh --check FILE.md...  write nothing: name the stale files, and exit 1
-# To be run at the top of the repository, after docs/numbers.sh.
+# Run it at the top of the repository, after docs/numbers.sh.
 #   <!-- snip: PATH#NAME -->   the definition of NAME in PATH: a function or its type, a struct, an enum,
 #   <!-- /snip -->             or the program below the heading NAME in a comment
-#   <!-- put: NAME -->         what build/numbers/NAME.txt has, but for its lines "key: value"
+#   <!-- put: NAME -->         what build/numbers/NAME.txt has, except its lines "key: value"
 #   <!-- /put -->
 #   <!--NAME KEY-->...<!--/--> the value in the line "KEY: value" there, within a sentence
 program='

@@ -1,5 +1,5 @@
-/* Chapter 10: the error of twelve scenes, noisy and finished, against pictures with 1024 samples
- * of another seed, the noise of which is taken away. Slow: some minutes. */
+/* Chapter 10: the error of twelve scenes, noisy and finished, against pictures with 1024
+ * samples of another seed, whose noise is subtracted. Slow: some minutes. */
 #include "10-scenes.h"
 
 enum { W = 320, H = 240, PIXELS = W * H, COUNTS = 4 };
@@ -23,7 +23,7 @@ static double error_of(const rt_image *a)
     return sqrt(fmax(0, error * error - noise * noise));
 }
 
-/* As bytes are shown: the mean of the channels, encoded. */
+/* As bytes show it: the mean of the channels, encoded. */
 static double shown(const rt_image *a, int i)
 {
     const rt_vec3 c = a->pixels[i];

@@ -1,4 +1,5 @@
-/* Twelve scenes to measure chapter 10 with. With the first four its constants were chosen. */
+/* Twelve scenes to measure chapter 10 with. Its constants were chosen with the first
+ * four. */
 #define RT_IMPLEMENTATION
 #include "demos/scene.h"
 #include <stdio.h>
@@ -130,7 +131,7 @@ static void many_spheres(test_scene *s)
     the_lamp(s);
 }
 
-static void outdoors(test_scene *s) /* sun, sky, and pebbles of which some are mirrors */
+static void outdoors(test_scene *s) /* sun, sky, and pebbles, some of them mirrors */
 {
     uint32_t state = 6000;
     s->scene.background = rt_vec(0.5f, 0.7f, 1);
@@ -148,7 +149,8 @@ static void outdoors(test_scene *s) /* sun, sky, and pebbles of which some are m
     s->camera = (rt_camera){{0, 1, 2}, {0, -0.15f, -1}, {0, 1, 0}, 50};
 }
 
-static void corridor(test_scene *s) /* two lamps of other colours, pillars, 8 bounces */
+static void corridor(test_scene *s) /* two lamps of different colours, pillars, 8
+                                       bounces */
 {
     box(s, rt_vec(-10, -1, -60), rt_vec(10, 0, 10), matt(0.6f, 0.6f, 0.6f));
     box(s, rt_vec(-10, 10, -60), rt_vec(10, 11, 10), matt(0.8f, 0.8f, 0.8f));

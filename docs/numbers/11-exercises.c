@@ -22,8 +22,8 @@ static double crosses(float b, float eta)
     return (double)(ray.origin.z - ray.origin.x / ray.direction.x * ray.direction.z);
 }
 
-/* Of rays that enter a cube through its front from all sides, the share for which the first face
- * that they meet is one of the four sides, and of those the share that gets out there. */
+/* Of the rays that enter a cube through its front from all sides: the share that meets
+ * one of the four sides first, and of those the share that gets out there. */
 static void sides(float eta, double *met, double *out)
 {
     const rt_box cube = {{-1, -1, -1}, {1, 1, 1}, {{0, 0, 0}, false}};
@@ -51,8 +51,8 @@ static void sides(float eta, double *met, double *out)
     *out = 100.0 * left / side;
 }
 
-/* The light along a ray in the room of demo 11, as there; at the first surface of glass both ways,
- * each with its part, in place of the coin. */
+/* The light along a ray in the room of demo 11, as there; but at the first surface of
+ * glass it takes both ways, each with its part, and tosses no coin. */
 static rt_vec3 split(rt_ray ray, int bounces, rt_rng *rng)
 {
     rt_hit hit;
@@ -125,7 +125,7 @@ int main(void)
     sides(1.41f, &met, &out);
     printf("below-out: %.3f\n", out);
 
-    /* a bubble of air, in glass: up to which distance from the middle a ray gets in */
+    /* a bubble of air in glass: how far from the middle a ray still gets in */
     float low = 0, high = 1;
     for (int i = 0; i < 30; i++) {
         const float b = (low + high) / 2;

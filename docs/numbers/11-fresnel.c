@@ -19,7 +19,7 @@ static double schlick(double cosine, double eta)
     return f0 + (1 - f0) * pow(1 - cosine, 5);
 }
 
-/* Of light that falls from all directions alike: the weights are 2 cos d(cos). */
+/* For light that comes equally from all directions: the weights are 2 cos d(cos). */
 static double mean(double eta)
 {
     double sum = 0;
@@ -67,7 +67,7 @@ int main(void)
     for (int i = 0; i <= N; i++) {
         const double cosine = (double)i / N, sin2 = 2.25 * (1 - cosine * cosine);
         air = fmax(air, fabs(schlick(cosine, 1.5) - fresnel(cosine, 1.5)));
-        if (sin2 >= 1) /* total reflection: even the wrong listing knows that */
+        if (sin2 >= 1) /* total reflection: even the wrong listing has that */
             continue;
         const double f = fresnel(cosine, 1 / 1.5);
         outer_angle = fmax(outer_angle, fabs(schlick(sqrt(1 - sin2), 1.5) - f));

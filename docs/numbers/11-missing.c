@@ -1,7 +1,7 @@
-/* Chapters 11 and 12: where the lamp's light goes in the room of scene.h. Rays leave the lamp, a
- * point, in all directions alike, each with the same power, and go on by mirrors and glass (by
- * the coin, and what the amber leaves) until they meet a matt surface. What leaves the room
- * through its open side is not counted. */
+/* Chapters 11 and 12: where the lamp's light goes in the room of scene.h. Rays leave the
+ * lamp, a point, equally in all directions, each with the same power, and go on by
+ * mirrors and glass (by the coin, and what the amber leaves) until they meet a matt
+ * surface. What leaves the room through its open side is not counted. */
 #define RT_IMPLEMENTATION
 #include "demos/scene.h"
 #include <stdio.h>

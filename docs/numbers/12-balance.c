@@ -1,9 +1,10 @@
-/* Chapter 12: the light that chapter 6 missed is back. A closed cube of side 1, the wall at x = 1 a
- * mirror, a lamp in the middle. What the five other walls send out, in the mean over their area, all
- * bounces.
+/* Chapter 12: the light that chapter 6 missed is back. A closed cube of side 1, the wall
+ * at x = 1 a mirror, a lamp in the middle. Computed: what the five other walls send out,
+ * as a mean over their area, with all bounces.
  *
- * White: nothing takes light but the lamp, which is black and has the radiance 1. Then everything
- * has. Grey: albedo 1/2, a lamp of 1 W/sr. All that it sends the walls take, or it takes itself:
+ * White: only the lamp takes light; it is black and has the radiance 1. Then everything
+ * has the radiance 1. Grey: albedo 1/2, a lamp of 1 W/sr. The walls take all that it
+ * sends, or it takes it itself:
  *
  *     4 pi I = (1 - rho) 5 E + what the lamp takes,   and they send out rho E / pi. */
 #include "rt.h"

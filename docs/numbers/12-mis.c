@@ -3,9 +3,9 @@
  * pictures of different seeds over sqrt(2), over the pixels that see the ball, and over their mean;
  * the mean of 8 pairs.
  *
- * rt_radiance_mis makes all of them, with another rt_mis each. Who asks it? Where a surface aims,
- * its density is the one that rt_lamp_density has just said; where a path has met the lamp, the
- * other's is. */
+ * rt_radiance_mis makes all of them, each with its own rt_mis. Which way asks it? If a
+ * surface aims, density is what rt_lamp_density has just returned; if a path has met the
+ * lamp, other is. */
 #define rt_lamp_density my_lamp_density
 #define rt_mis my_mis
 #include "rt.h"

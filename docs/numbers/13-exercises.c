@@ -43,8 +43,8 @@ static rt_vec3 eye_at(double degrees)
     return rt_vec((float)sin(a), 0, (float)cos(a));
 }
 
-/* The light that a white metal of shininess 50 sends on, of 1 from everywhere; and with the
- * samples that point below the surface counted as good ones. */
+/* What a white metal of shininess 50 sends on if light 1 comes from everywhere; and the
+ * same with samples that point below the surface counted as good ones. */
 static void furnace(void)
 {
     const rt_vec3 eye = eye_at(60);

@@ -1,6 +1,6 @@
-/* Chapter 13: the white furnace. Light 1 comes from everywhere; what a white lobe sends to an
- * eye at this angle, by quadrature: the integral of value . cosine over the hemisphere. And how
- * wide the lobes are that the same shininess makes. */
+/* Chapter 13: the white furnace. Light 1 comes from everywhere; what a white lobe sends
+ * to an eye at this angle, by quadrature: the integral of value . cosine over the
+ * hemisphere. And how wide the lobes of the same shininess are. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -44,7 +44,7 @@ static double albedo(int model, double n, double eye)
     return 2 * sum * (pi / 2 / ROWS) * (pi / COLUMNS);
 }
 
-/* How far from the mirror's direction half of the most is left, in degrees. */
+/* How far from the mirror's direction half of the maximum is left, in degrees. */
 static double half_width(int model, double n)
 {
     double low = 0, high = 60;

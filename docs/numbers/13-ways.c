@@ -1,6 +1,6 @@
-/* Chapter 13: three ways to the light of a lamp on a ball of rough metal: aim at the lamp, go by
- * chance, and both with the weights of chapter 12. The noise of 32 samples, over all that one
- * sees of the ball. */
+/* Chapter 13: three ways to the light of a lamp on a ball of rough metal: aim at the
+ * lamp, go by chance, and both with the weights of chapter 12. The noise of 32 samples,
+ * over all of the ball that is seen. */
 #define RT_IMPLEMENTATION
 #include "rt.h"
 #include <stdio.h>

@@ -18,8 +18,8 @@ static double formula(double z, double R, double f, double fov)
     return R * fabs(z - f) / z / pixel_size(f, fov);
 }
 
-/* The light of a ball at distance z is spread over a disc: of an even one with radius r the mean
- * of the squared distance from the middle is r^2 / 2. */
+/* The light of a ball at distance z is spread over a disc. For an even one of radius r,
+ * the mean of the squared distance from the middle is r^2 / 2. */
 static double measured(double z)
 {
     rt_camera camera = room_camera;

@@ -1,6 +1,6 @@
-/* Chapter 14: the sun as a lamp far away, and as a bright spot in the sky. Light of a white floor
- * under it, and the noise of 16 samples; the same for the room; and the light of the evening's sky
- * on an open floor. */
+/* Chapter 14: the sun as a lamp far away, and as a bright spot in the sky. The light of a
+ * white floor under it, and the noise of 16 samples; the same for the room; and the light
+ * of the evening's sky on an open floor. */
 #define RT_IMPLEMENTATION
 #include "demos/scene.h"
 #include <stdio.h>

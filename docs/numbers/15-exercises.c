@@ -3,7 +3,7 @@
 #include "demos/scene.h"
 #include <stdio.h>
 
-/* Rings about the y axis, 4 apart, of which a quarter is dark. */
+/* Rings about the y axis, 4 apart, a quarter of each dark. */
 static rt_vec3 wood(const void *unused, rt_vec3 P, rt_vec3 N)
 {
     (void)unused;
@@ -13,8 +13,8 @@ static rt_vec3 wood(const void *unused, rt_vec3 P, rt_vec3 N)
                                        : rt_vec(0.35f, 0.20f, 0.10f);
 }
 
-/* The floor with tiles, without end, seen flat: rows of a picture 64 wide, one far row. The
- * checker that fades knows the eye, and that a pixel there is so long. */
+/* An endless floor of tiles, seen at a flat angle: rows of a picture 64 wide, one far
+ * row. The checker that fades knows the eye, and how long a pixel is there. */
 typedef struct faded {
     pattern_checks tiles;
     rt_vec3 eye;
@@ -67,14 +67,16 @@ int main(void)
     }
     printf("wood-mean: %.3f\n", mean);
 
-    /* how much longer than wide is what a small square of the picture covers, at this angle to
-     * the line of sight: 1 / cosine thrown on; for the map around, 1 / cosine of the latitude */
+    /* how many times longer than wide is what a small square of the picture covers, at
+     * this angle to the line of sight: 1 / cosine if projected; for the map around, 1 /
+     * cosine of the latitude */
     for (int degrees = 0; degrees <= 60; degrees += 30) {
         const double h = 1e-4, a = degrees * 3.14159265358979 / 180;
         const double arc = asin(sin(a) + h) - asin(sin(a));
         printf("stretch%d: %.2f\n", degrees, arc / h);
     }
-    /* the share of a sphere that a map's top tenth of rows covers, and thrown on from the front */
+    /* the share of a sphere that a map's top tenth of rows covers, and one projected from
+     * the front */
     printf("map-top: %.2f\nthrown-top: %.2f\n",
            100 * (1 - cos(3.14159265358979 / 10)) / 2, 100 * 0.1);
 

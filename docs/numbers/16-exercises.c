@@ -64,8 +64,9 @@ static bool contracted(const rt_mesh *mesh, int i, const rt_ray *ray)
 
 typedef bool way(const rt_mesh *mesh, int i, const rt_ray *ray);
 
-/* From E inside, to A + s (B - A) of each triangle, s = 0.05, 0.15 ... 0.95; or with few digits in
- * all coordinates exactly to the middle. How many of those rays meet no triangle? */
+/* Rays from E, inside, to A + s (B - A) of each triangle, s = 0.05, 0.15 ... 0.95; or,
+ * where all coordinates have few digits, exactly to the middle. How many meet no
+ * triangle? */
 static int leaks(const rt_mesh *mesh, rt_vec3 e, bool middle, way *hits)
 {
     int count = 0;
@@ -83,7 +84,8 @@ static int leaks(const rt_mesh *mesh, rt_vec3 e, bool middle, way *hits)
     return count;
 }
 
-/* By how much the normals of the corners, mixed, differ from those of the triangles, at most. */
+/* The most by which the mixed normals of the corners differ from those of the
+ * triangles. */
 static double tilt(const rt_mesh *mesh)
 {
     double most = 0;

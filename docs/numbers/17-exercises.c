@@ -11,7 +11,7 @@ static double volume(rt_hit_function *hit, const void *data, rt_vec3 min, rt_vec
     return volume_of(&shape);
 }
 
-/* A ball of this radius with a hole along y, of such a width that the rest is so high. */
+/* A ball of this radius with a hole along y, so wide that the rest has this height. */
 static double with_a_hole(float radius, float height)
 {
     const float half = height / 2, hole = sqrtf(radius * radius - half * half);

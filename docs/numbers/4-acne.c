@@ -1,4 +1,4 @@
-/* Chapter 4, exercise 3: which part of the lit points shadows itself? */
+/* Chapter 4, exercise 3: what part of the lit points shadows itself? */
 #include "demos/scene.h"
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 /* Chapter 4: does a closed box let rays out? A box seen from its middle, no lamp, and a
- * bright background, which nobody inside must see. Twelve million paths of 5 bounces: how many
- * get out, (a) with hits as rt_intersect gives them, with the point pulled into the box, and
- * (b) as rt_hit_box does, with the point just on the plane of the face? */
+ * bright background, which nobody inside must see. Twelve million paths of 5 bounces: how
+ * many get out, (a) with hits as rt_intersect gives them, with the point pulled into the
+ * box, and (b) as rt_hit_box does, with the point exactly on the plane of the face? */
 #define RT_IMPLEMENTATION
 #define rt_intersect one_box
 #include "rt.h"

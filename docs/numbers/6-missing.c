@@ -3,13 +3,14 @@
  * without another diffuse surface in between, directly and by way of the mirror.
  *
  * Wall: a closed box whose wall at the greatest x is a mirror. Random points of the other
- * five walls get cosine / d^2 from the lamp, and as much from its image behind the mirror.
- * The box is convex, so every point sees both. Cube: the lamp is in the middle, so the share
- * must be 1/6. Room: the box 100 x 60 x 165 around the room of scene.h, lamp as there.
+ * five walls get cosine / d^2 from the lamp, and as much from its image behind the
+ * mirror. The box is convex, so every point sees both. Cube: the lamp is in the middle,
+ * so the share must be 1/6. Room: the box 100 x 60 x 165 around the room of scene.h, with
+ * its lamp.
  *
- * Ball: the room of scene.h itself. Rays leave its lamp in all directions alike, each with
- * the same power, and are reflected until they meet a diffuse surface. What leaves the room
- * through its open side is not counted. */
+ * Ball: the room of scene.h itself. Rays leave its lamp equally in all directions, each
+ * with the same power, and are reflected until they meet a diffuse surface. What leaves
+ * the room through its open side is not counted. */
 #define RT_IMPLEMENTATION
 #include "demos/scene.h"
 #include <stdio.h>

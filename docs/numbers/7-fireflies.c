@@ -1,8 +1,9 @@
-/* Chapter 7: fireflies. A closed room of 10 x 10 x 10, albedo 0.5, and a lamp 1, 0.1 or 0.01
- * below the middle of the ceiling. Four million samples of one pixel, which shows the middle
- * of the floor, with one bounce. Only the indirect light counts: the direct light is the same
- * in each sample, and is taken away. How often its mean is the largest sample, and what part
- * of it is lost if no sample may be above 10 times the mean? */
+/* Chapter 7: fireflies. A closed room of 10 x 10 x 10, albedo 0.5, and a lamp 1, 0.1 or
+ * 0.01 below the middle of the ceiling. Four million samples of one pixel, which shows
+ * the middle of the floor, with one bounce. Only the indirect light counts: the direct
+ * light is the same in each sample, and is subtracted. How many times the mean is the
+ * largest sample, and what part of the mean is lost if no sample may be above 10 times
+ * the mean? */
 #define RT_IMPLEMENTATION
 #include "rt.h"
 #include <stdio.h>

@@ -1,5 +1,5 @@
-# Chapter 7: the report's flags and ours, 160 x 120 on two threads but in two rows. Slow: it
-# compiles four times.
+# Chapter 7: the report's flags and ours, 160 x 120 on two threads, except in two rows of
+# the table. Slow: it compiles four times.
 seconds() { # CFLAGS OPENMP ARGS...
     make -s "BUILD=build/numbers/flags" build/numbers/flags/demo07 \
         "CFLAGS=$1" "OPENMP=$2" >/dev/null || exit

@@ -1,7 +1,7 @@
 /* Chapter 7: bounces up to a limit, and all of them by Russian roulette. 160 x 120, 64
  * samples: mean of the picture, rays per sample, the part of the light that is missing
- * against all bounces, and the noise as rt_image_error estimates it.
- * And the exercise: the mean of 100 000 paths in a closed sphere of albedo 0.9. */
+ * compared with all bounces, and the noise as rt_image_error estimates it. And the
+ * exercise: the mean of 100 000 paths in a closed sphere of albedo 0.9. */
 #define RT_IMPLEMENTATION
 #include "demos/scene.h"
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Chapter 8: how many bytes of the tree there are for each shape. */
+/* Chapter 8: how many bytes of the tree each shape takes. */
 #define RT_IMPLEMENTATION
 #include "tests/meshes.h"
 

@@ -1,4 +1,4 @@
-/* The volume of a shape, by the ways of rays in it: chapter 17. */
+/* The volume of a shape, from the lengths of rays in it: chapter 17. */
 #ifndef MEASURE_H
 #define MEASURE_H
 
