@@ -159,7 +159,7 @@ static
 
 static void test_to_float_rounds(void **state)
 {
-    /* gcc 12 with -O2 does not, if one lets it: see rt_to_float. */
+    /* gcc 12 with -O2 would not: see RT__ROUND. */
     (void)state;
     const double p[4] = {1, 2, 4, 1.0 / 3};
     double q[3];

@@ -126,7 +126,8 @@ static quad quad_sqrt(quad v)
 {
     if (!(v > 0))
         return 0;
-    quad root = (quad)sqrtl((long double)v); /* Newton doubles the right digits */
+    quad root = (quad)sqrtl((long double)v); /* a step of Newton's method doubles the
+                                                number of right digits */
     root = (root + v / root) / 2;
     return (root + v / root) / 2;
 }
@@ -191,8 +192,8 @@ static void check_radius(float radius, double tolerance)
             assert_untouched(hit);
             continue;
         }
-        /* relative to t, but for rays that start within 0.01 of the surface: there what
-         * is left is the rounding of |C - O|^2 - R^2 in double, below 1e-8 for R = 1e5 */
+        /* relative to t, except for rays that start within 0.01 of the surface: there the
+         * rounding of |C - O|^2 - R^2 in double is left, below 1e-8 for R = 1e5 */
         const double error = fabs((double)(hit.t - t)) / fmax((double)t, 0.01);
         assert_true(error <= tolerance);
         worst = error > worst ? error : worst;

@@ -152,8 +152,8 @@ static void test_lambert_from_behind_or_in_the_point_is_black(void **state)
 
 static void test_lambert_sends_no_more_than_it_gets(void **state)
 {
-    /* Light all around: the mean over the hemisphere of directions, times its 2 pi sr,
-     * of rho/pi . cosine is rho. By the midpoint rule over the cosine. */
+    /* Light all around: the mean of rho/pi . cosine over the hemisphere, times its 2 pi
+     * sr, is rho. By the midpoint rule over the cosine. */
     (void)state;
     double sum = 0;
     for (int i = 0; i < 1000; i++) {

@@ -142,7 +142,8 @@ static void test_any_of_several_hides_the_light(void **state)
 
 static void test_visible_both_ways(void **state)
 {
-    /* Two points of a scene see each other or not, whichever of them asks. */
+    /* Whether two points of a scene see each other does not depend on which of them
+     * asks. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 15);
     int seen = 0, total = 0;

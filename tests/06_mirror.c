@@ -23,8 +23,8 @@ static void test_reflect_on_a_slanting_mirror(void **state)
 
 static void test_reflect_properties(void **state)
 {
-    /* As long as before, the same angle to N, in the plane of I and N, the same for -N, and
-     * twice is not at all. */
+    /* R is as long as I, at the same angle to N, in the plane of I and N, and the same
+     * for -N; reflecting twice changes nothing. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 21);
     for (int i = 0; i < 100000; i++) {

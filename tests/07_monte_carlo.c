@@ -114,8 +114,8 @@ static void test_sample_cosine_is_of_unit_length_and_above(void **state)
 static void test_sample_cosine_has_the_density_of_the_cosine(void **state)
 {
     /* 20 x 20 bins of equal probability: in the angle about N, and in cosine^2, which is
-     * uniform when the density is cosine/pi. Measured by dot products with a basis of the
-     * test's own. chi-square: 399 degrees, standard deviation 28. */
+     * uniform when the density is cosine/pi. Measured by dot products with the test's own
+     * basis. chi-square: 399 degrees, standard deviation 28. */
     (void)state;
     enum { N = 1000000, SIDE = 20 };
     const rt_vec3 normals[] = {{0, 0, 1}, {0, 0, -1}, {0.6f, 0, 0.8f}, {0, -1, 0}};
@@ -171,9 +171,9 @@ static void test_the_integrating_sphere(void **state)
     }
 }
 
-/* A closed sphere of radius 10 and grey albedo rho with the light anywhere inside. What the
- * light sends to a point is rho/pi . I cos/d^2; what bounces comes back evenly from all sides,
- * whatever the shape of the light, since a sphere lights itself evenly:
+/* A closed sphere of radius 10 and grey albedo rho with the light anywhere inside. What
+ * the light sends to a point is rho/pi . I cos/d^2; bounced light comes back evenly from
+ * all sides, wherever it first fell, since a sphere lights itself evenly:
  *
  *     rho/pi . (I cos/d^2 + I/R^2 . sum of rho^k, k = 1..n).
  *
@@ -246,8 +246,8 @@ static double hits_from(const rt_sphere *a, const rt_sphere *b, uint32_t n)
 
 static void test_reciprocity(void **state)
 {
-    /* What a sends to b, b sends to a: area times the part of its light that arrives is the
-     * same both ways, A_a F_ab = A_b F_ba. */
+    /* What a sends to b, b sends to a. The area times the part of its light that arrives
+     * is the same both ways, A_a F_ab = A_b F_ba. */
     (void)state;
     const rt_sphere a = {{0, 0, 0}, 1, {{1, 1, 1}, false}};
     const rt_sphere b = {{1, 2, -5}, 3, {{1, 1, 1}, false}};

@@ -177,7 +177,7 @@ static void test_no_light_is_a_black_picture(void **state)
 
 static void test_more_samples_less_noise(void **state)
 {
-    /* Four times the samples, half of the error: what the report wanted to know. */
+    /* Four times the samples halve the error: what the report wanted to know. */
     (void)state;
     rt_image best = render(40, 30, with(1024, 0));
     double error[2];
@@ -208,7 +208,7 @@ typedef struct watch {
 static bool watch_progress(void *user, float part)
 {
     watch *w = user;
-    if (!(part >= w->last && part <= 1)) /* the same: a task took long */
+    if (!(part >= w->last && part <= 1)) /* the same if a task took long */
         fail_msg("progress from %g to %g", (double)w->last, (double)part);
     w->last = part;
     if (w->calls == 0)
@@ -295,7 +295,7 @@ static void test_progress_is_called_often_for_slow_pixels(void **state)
     options.user = &calls;
     assert_int_equal(rt_render_pixels(slow_pixel, NULL, &options, &image), RT_OK);
     assert_in_range(calls, 5,
-                    1000); /* every 15 ms, also on a busy machine; not for each */
+                    1000); /* every 15 ms, even on a busy machine; not for each pixel */
     free(image.pixels);
 }
 
@@ -357,7 +357,7 @@ static void test_null_is_refused(void **state)
         *counts[i] = -1;
         assert_int_equal(rt_render(&scene, &room_camera, NULL, &image), RT_BAD_POINTER);
     }
-    for (int i = 0; i < 3; i++) { /* one object in an array that is not there */
+    for (int i = 0; i < 3; i++) { /* one object in an array that is missing */
         rt_scene one = {0};
         int index = 7;
         *(i == 0 ? &one.sphere_count : i == 1 ? &one.box_count : &one.light_count) = 1;
@@ -550,7 +550,7 @@ static void test_thread_count(void **state)
 #endif
 }
 
-/* A picture cut at random places has the same bits as the whole, in all that it records. */
+/* A picture cut at random places has the bits of the whole, in all that it records. */
 static void test_parts(void **state)
 {
     (void)state;
@@ -571,7 +571,7 @@ static void test_parts(void **state)
             part.guides = part_guides + first;
             part.first = first;
             part.count = count;
-            for (int samples = 2; samples <= 3; samples++) { /* and gone on with */
+            for (int samples = 2; samples <= 3; samples++) { /* and continued */
                 const rt_options some = {.samples = samples,
                                          .bounces = 3,
                                          .threads = 1 + cut % 2,
@@ -615,11 +615,11 @@ static void test_bad_parts(void **state)
     }
     rt_image image = {.width = 4,
                       .height = 3,
-                      .pixels = pixels}; /* a path may be asked for of any pixel */
+                      .pixels = pixels}; /* a path of any pixel may be asked for */
     image.first = 11;
     image.count = 1;
     rt_path path = {0};
-    const rt_options timed = {.seconds = 1.0f}; /* which rendering a part refuses */
+    const rt_options timed = {.seconds = 1.0f}; /* rendering a part refuses that */
     assert_int_equal(
         rt_trace_pixel(&scene_indirect, &room_camera, &timed, &image, 0, 0, 0, &path),
         RT_OK);

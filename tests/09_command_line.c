@@ -122,7 +122,7 @@ static void test_error_ends_the_rendering(void **state)
 
     expect(0, "", "demo07 40 30 --error 1000. --no-window --out e.png");
     read_result(&samples, &error);
-    assert_int_equal(samples, 16); /* fewer are not believed */
+    assert_int_equal(samples, 16); /* fewer are not trusted */
     expect(0, "at most 20 samples, until the error is 1 %",
            "demo07 40 30 --error 0.01 --samples 20 --no-window --out e.png");
     read_result(&samples, &error);
@@ -152,7 +152,7 @@ static void test_time_ends_the_rendering(void **state)
     assert_true(took >= 0.29 && took < 2.0);
     expect(0, "", "demo07 100 80 --time 0.000001 --no-window --out t.png");
     read_result(&samples, &error);
-    assert_int_equal(samples, 1); /* one at least: a whole picture */
+    assert_int_equal(samples, 1); /* at least one: a whole picture */
     expect(0, "at most 2 samples, for 600 s at most",
            "demo07 40 30 --time 600 --samples 2 --no-window --out t.png");
     read_result(&samples, &error);
@@ -372,7 +372,8 @@ static void test_without_a_display_it_says_so_and_goes_on(void **state)
 {
     (void)state;
     expect(0, "no window|wrote w.png", "demo05 20 20 --samples 1 --out w.png");
-    /* a display that is not there; libdbus, which SDL asks, leaks then: not ours to find */
+    /* a display that does not exist; then libdbus, which SDL asks, leaks: not ours to
+     * find */
     assert_int_equal(
         run("ASAN_OPTIONS=detect_leaks=0 DISPLAY=:77 \"$DEMOS\"/demo05 20 20 "
             "--samples 1 --out x.png"),
@@ -571,7 +572,7 @@ static void test_full_disk(void **state)
 
 static void test_a_file_limit_keeps_the_old_file(void **state)
 {
-    /* A disk that is full half-way, made by a limit on the size of files. */
+    /* A disk that fills up half-way, imitated by a limit on the size of files. */
     (void)state;
     write_text("old.pfm", "precious");
     assert_int_equal(

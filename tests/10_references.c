@@ -1,6 +1,6 @@
-/* rt.h against independent renderers: every scene in references/scenes that has an image in
- * references/ref. A new one is dropped in as NAME.json and NAME.pfm; with NAME.se.pfm, the
- * standard error of each value, its noise is known; without, it counts as exact. */
+/* rt.h against independent renderers: every scene in references/scenes that has an image
+ * in references/ref. To add one, put NAME.json and NAME.pfm there. NAME.se.pfm, the
+ * standard error of each value, tells its noise; without it the image counts as exact. */
 #define _POSIX_C_SOURCE 200809L /* scandir */
 #include <dirent.h>
 
@@ -38,10 +38,11 @@ static double mean_of(const double *values, double *error)
     return sum;
 }
 
-/* Is the scene as rt.h renders it the reference but for noise? It is rendered PASSES times
- * with other seeds; how much they differ tells how noisy their mean is. Per channel,
- * - the mean of the image: |ratio - 1| <= 3 standard errors, theirs and ours, + 0.0005;
- * - the means of 8 x 8 blocks: at most 1 % of them further off than 3 standard errors. */
+/* Is the scene as rt.h renders it the reference but for noise? It is rendered PASSES
+ * times with different seeds; their differences tell how noisy their mean is. Per
+ * channel, - the mean of the image: |ratio - 1| <= 3 standard errors, theirs and ours, +
+ * 0.0005; - the means of 8 x 8 blocks: at most 1 % of them further off than 3 standard
+ * errors. */
 static void check_scene(const char *name)
 {
     char path[300];
@@ -57,8 +58,8 @@ static void check_scene(const char *name)
     snprintf(path, sizeof path, "tests/references/ref/%s.se.pfm", name);
     rt_vec3 *error = read_pfm(path, width, height);
     rt_image images[PASSES];
-    /* what only chance finds, as light by way of a mirror, is rare and bright: sigma is known
-     * too badly from few samples */
+    /* what only chance finds, such as light by way of a mirror, is rare and bright: a few
+     * samples do not tell sigma well enough */
     const int samples = file.scene.lamp_count > 0 ? MORE_SAMPLES : SAMPLES;
     for (int pass = 0; pass < PASSES; pass++) {
         images[pass] = new_image(width, height);

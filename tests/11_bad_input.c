@@ -118,7 +118,8 @@ static rt_status render_size(int width, int height)
     return rt_render(&scene_indirect, &room_camera, &options, &image);
 }
 
-/* A command that must end like this; it finds the top folder in $TOP, the demos in $DEMOS. */
+/* A command that must end with this status; it finds the top folder in $TOP, the demos in
+ * $DEMOS. */
 static void shell(int status, const char *words, const char *command)
 {
     const int actual = run(command);
@@ -734,7 +735,7 @@ static void window_closed_while_rendering(void)
             "note: no Xvfb and xdotool here: closing the window is not tested\n");
         return;
     }
-    /* the X server starts while others ask for it, so that keys may be lost: three tries */
+    /* the X server starts while others use it, so keys may be lost: three tries */
     for (int i = 0; i < 3; i++) {
         if (run("until_ok() { for i in $(seq 100); do \"$@\" >/dev/null 2>&1 && return; "
                 "sleep 0.05; done; }; "
@@ -811,8 +812,8 @@ static void small_stacks(void)
 
 /* ---- 81 to 100: part two ------------------------------------------------------------ */
 
-/* A ball and a cube, with a surface each, a lamp, a light, a sky or not; rendered with packets and
- * without, which is the same picture, of moderate numbers. */
+/* A ball and a cube, with a surface each, a lamp, a light, a sky or not. Packets and
+ * single rays must make the same picture, of moderate numbers. */
 static rt_sphere two_ball;
 static rt_box two_cube;
 static rt_surface two_surfaces[4];
@@ -867,7 +868,7 @@ static rt_status render_two(void)
     return status;
 }
 
-/* Each of the numbers in this place of the scene is refused, and it is told of which. */
+/* In this place of the scene each of the numbers is refused, and the index says where. */
 static void refused(float *number, const float *bad, size_t count, rt_status expected,
                     int where)
 {
@@ -1216,7 +1217,7 @@ static bool own_disc(const void *data, const rt_ray *ray, float t_max, rt_hit *h
     return t > 0 && t < t_max && rt_length(rt_sub(hit_->point, rt_vec(0, 0, -3))) < 1;
 }
 
-/* That of part two, with a tetrahedron around its ball and a disc before it. */
+/* The scene of part two, with a tetrahedron around its ball and a disc in front. */
 static void with_mesh(void)
 {
     const rt_vec3 at[4] = {{3, 3, -2}, {3, -3, -8}, {-3, 3, -8}, {-3, -3, -2}};
@@ -1284,7 +1285,7 @@ static void mesh_of_nothing(void)
     rt_vec3 without[COUNT(picture)];
     with_mesh();
     two.mesh_count = 0;
-    two.surfaces = NULL; /* of which the disc has another */
+    two.surfaces = NULL; /* the disc has another number there */
     assert_int_equal(render_two(), RT_OK);
     memcpy(without, picture, sizeof without);
     two.mesh_count = 1;

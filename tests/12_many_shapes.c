@@ -243,8 +243,8 @@ static void test_the_same_hits_as_without_a_tree(void **state)
     assert_true(hits > 100000);
 }
 
-/* Rays that graze a sphere from far away, in the plane of a face of its box: where double takes
- * a miss for a hit, the box must not know better. */
+/* Rays that graze a sphere from far away, in the plane of a face of its box: where double
+ * takes a miss for a hit, the box must not say no. */
 static void test_grazing_rays_from_far_away(void **state)
 {
     (void)state;
@@ -541,10 +541,10 @@ static void test_the_same_tree_by_any_number_of_threads(void **state)
 
 static void test_shapes_at_1_2_4_8(void **state)
 {
-    /* Cut into parts of equal width, all but one of them are always in the same part: the
-     * tree would be as deep as there are shapes. In one direction, in all, and towards zero,
-     * and many shapes in a heap at the end of the row. Hits are compared with boxes only:
-     * there is no sphere so small and so far away that chapter 1 can tell. */
+    /* If the row is cut into parts of equal width, all shapes but one are always in the
+     * same part: the tree would be as deep as there are shapes. Rows run in one
+     * direction, in all, and towards zero, or end in a heap of many shapes. Hits are
+     * compared with boxes only: chapter 1 cannot tell spheres so small and far away. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 45);
     int deepest = 0;
@@ -707,12 +707,12 @@ static void test_a_thousand_times_the_shapes_a_few_times_the_work(void **state)
     }
     assert_true(work[1] <= 8 * work[0]);
     assert_true(seconds[1] <=
-                40 * seconds[0]); /* 600 without a tree; others work here, too */
+                40 * seconds[0]); /* 600 without a tree; other programs run here, too */
 }
 
 static void test_a_hundred_thousand_shapes_soon(void **state)
 {
-    /* n log n: eight times the shapes take some nine times as long, and not 64. */
+    /* n log n: eight times the shapes take about nine times as long, not 64 times. */
     (void)state;
     double took[2];
     for (int i = 0; i < 2; i++) {
@@ -749,7 +749,7 @@ static const rt_bvh empty; /* all zero */
 static void expect_refused(const rt_scene *scene, rt_status status)
 {
     rt_bvh bvh;
-    memset(&bvh, 0x55, sizeof bvh); /* it need not be cleared */
+    memset(&bvh, 0x55, sizeof bvh); /* it need not be cleared before */
     assert_int_equal(rt_build_bvh(scene, &bvh), status);
     assert_memory_equal(&bvh, &empty, sizeof bvh);
 }
@@ -843,7 +843,7 @@ static void test_a_tree_of_another_scene_is_refused(void **state)
     m.scene.box_count--;
     m.scene.bvh = &empty; /* freed, or never built */
     assert_int_equal(rt_check_scene(&m.scene, NULL), RT_BAD_BVH);
-    rt_bvh fresh; /* an old tree does not matter where a new one is built */
+    rt_bvh fresh; /* rt_build_bvh ignores an old tree */
     assert_int_equal(rt_build_bvh(&m.scene, &fresh), RT_OK);
     rt_free_bvh(&fresh);
     assert_int_equal(image.samples, 0);

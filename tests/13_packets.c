@@ -1,5 +1,6 @@
-/* The last section of rt.h: packets of rays make the picture that the chapters make, to the
- * bit. Compiled with RT_NO_PACKETS, this is a program that says what it makes without. */
+/* The last section of rt.h: packets of rays make the picture that the chapters make, to
+ * the bit. Compiled with RT_NO_PACKETS, this is a program that prints what rt.h makes
+ * without them. */
 #define _XOPEN_SOURCE 700 /* scandir, mkstemp, popen */
 #ifdef RT_NO_PACKETS
 #define RT_IMPLEMENTATION
@@ -211,7 +212,7 @@ static void test_the_scenes_of_the_references(void **state)
         snprintf(path, sizeof path, "tests/references/scenes/%s", entries[i]->d_name);
         if (!read_scene(path, &file))
             fail_msg("%s: %s", path, file.error);
-        if (!file.mirror_direct) { /* that one has a function of its own: no packets */
+        if (!file.mirror_direct) { /* that scene uses a function of its own: no packets */
             picture p = picture_of(&file.scene, &file.camera);
             p.width = file.width;
             p.height = file.height;
@@ -323,7 +324,7 @@ static void test_without_packets(void **state)
     assert_true(hash_of_the_room(1) == hash_of_the_room(0));
 }
 
-/* ---- cases of which each was wrong once --------------------------------------------- */
+/* ---- cases that were wrong once ----------------------------------------------------- */
 
 static rt_material grey(float albedo)
 {
@@ -396,8 +397,8 @@ static void test_rays_in_the_plane_of_a_face(void **state)
 
 static void test_rays_almost_parallel_to_a_face(void **state)
 {
-    /* Components below 1e-29, of which packets have no inverse, and a camera so close to a
-     * face that the ray meets it soon all the same. */
+    /* Components below 1e-29, which have no inverse in packets, and a camera so close to
+     * a face that the ray still meets it soon. */
     (void)state;
     const rt_sphere sphere = {{20, -10, -40}, 30, {{0.1f, 0.8f, 0.9f}, true}};
     const rt_box box = {{0, -10, -40}, {20, 10, 20}, grey(0.5f)};
@@ -435,7 +436,8 @@ static void test_spheres_smaller_than_the_step_off_them(void **state)
 
 static void test_lights_on_the_surface(void **state)
 {
-    /* By rounding a little above it, or below: then chapter 4 finds the sphere in the way. */
+    /* Rounding puts it a little above, or below: then chapter 4 finds the sphere in the
+     * way. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 65);
     for (int i = 0; i < 60; i++) {
@@ -485,7 +487,7 @@ static void test_on_the_surface(void **state)
 
 static void test_a_ray_that_grazes_a_mirror(void **state)
 {
-    /* So closely that, by rounding, the reflected ray starts below the surface. */
+    /* So close that rounding makes the reflected ray start below the surface. */
     (void)state;
     const rt_sphere spheres[1] = {
         {{0.756089509f, 0.358208299f, -5.40043497f}, 1.05996764f, {{1, 1, 1}, true}}};
@@ -846,7 +848,7 @@ static rt_lamp odd_lamp(odd_scene *s)
     return lamp;
 }
 
-/* Make it one of part two: at least one of surfaces, lamps, sky and lens. */
+/* Make it a scene of part two, with at least one of surfaces, lamps, sky and lens. */
 static void add_part_two(odd_scene *s)
 {
     rt_rng *rng = s->rng;
@@ -947,7 +949,7 @@ static void test_a_room_of_part_two(void **state)
     assert_true(bright - before >= 28);
 }
 
-/* A sphere as a shape of one's own, and a flat disc, y = its middle's. */
+/* A sphere as a custom shape, and a flat disc at the height of its middle. */
 static bool hit_own_ball(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
 {
     const rt_sphere *sphere = data;
@@ -972,9 +974,9 @@ static bool hit_own_disc(const void *data, const rt_ray *ray, float t_max, rt_hi
     return rt_length(rt_sub(hit->point, s->center)) <= s->radius;
 }
 
-/* Meshes of few or many triangles, which touch, coincide, or have no area; most are of corners
- * that are all over the scene, some are small and closed. And shapes of one's own. Of these two
- * kinds there are few, as in most scenes, or as many as there is room for. */
+/* Meshes of few or many triangles, which touch, coincide, or have no area; most have
+ * corners all over the scene, some are small and closed. And custom shapes. There are few
+ * of these two kinds, as in most scenes, or as many as there is room for. */
 static void add_meshes_and_own_shapes(odd_scene *s)
 {
     rt_rng *rng = s->rng;
@@ -1052,8 +1054,8 @@ static void test_odd_scenes_with_meshes_and_own_shapes(void **state)
 
 static void test_a_room_with_a_mesh(void **state)
 {
-    /* A sphere of triangles, a ring, and a ball of one's own in the room: each matt, of glass and
-     * of gloss, with a pattern, by lamps and by points of light. */
+    /* A sphere of triangles, a ring, and a custom ball in the room: each matt, of glass
+     * and of gloss, with a pattern, by lamps and by points of light. */
     (void)state;
     static rt_surface surfaces[6 + 2 + 1];
     const float scale = 9;
@@ -1105,7 +1107,7 @@ static void test_a_room_with_a_mesh(void **state)
 
 static void test_guides_behind_dark_mirrors(void **state)
 {
-    /* Which leave so little of the light that the path ends, but not the look. */
+    /* They leave so little of the light that the path ends, but the look goes on. */
     (void)state;
     const rt_material dark = {{1e-20f, 1e-20f, 1e-20f}, true};
     const rt_sphere spheres[] = {{{-1, 0, 0}, 1, dark}, {{1, 0, 0}, 1, dark}};
@@ -1202,7 +1204,7 @@ static void test_lights_next_to_small_spheres_seen_from_afar(void **state)
     }
 }
 
-/* Of what is only faster, nothing else would tell. */
+/* Nothing else would notice that packets are missing: they are only faster. */
 static void test_the_room_is_asked_shape_by_shape(void **state)
 {
     (void)state;

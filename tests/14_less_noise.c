@@ -17,8 +17,9 @@ static void test_reverse(void **state)
 
 static void test_the_second_coordinate_is_sobols(void **state)
 {
-    /* By direction numbers, as in the papers: coordinate n is the sum modulo 2 of those
-     * numbers for which n has a bit set, and for the second dimension, v = v ^ v / 2. */
+    /* By direction numbers, as in the papers: coordinate n is the sum modulo 2 of the
+     * numbers for the bits that are set in n, with v = v ^ v / 2 for the second
+     * dimension. */
     (void)state;
     for (uint32_t i = 0; i < 300000; i++) {
         const uint32_t n = i < 100000 ? i : rt_hash(i);
@@ -134,10 +135,10 @@ static void test_every_part_of_the_square_gets_its_sample(void **state)
         }
 }
 
-/* chi-square of pairs of numbers in a grid of 16 x 16. Sixteen samples in turn have one in
- * each row and one in each column: random permutations give a mean of 256 * 15/16 = 240,
- * and since Owen's scrambling swaps halves only, and so keeps neighbours together, a
- * standard deviation of some 60. Were the orders the same, it would be 60 000. */
+/* chi-square of pairs of numbers in a grid of 16 x 16. Sixteen samples in turn have one
+ * in each row and one in each column: random permutations give a mean of 256 * 15/16 =
+ * 240, and a standard deviation of some 60, since Owen's scrambling only swaps halves,
+ * and so keeps neighbours together. If the orders were the same, it would be 60 000. */
 static double chi_square(const int *bins, int n)
 {
     double sum = 0;
@@ -301,8 +302,8 @@ static double component(rt_vec3 v, int k)
     return (double)(k == 0 ? v.x : k == 1 ? v.y : v.z);
 }
 
-/* Some pictures of the same, with different seeds: no reference is needed to tell how far
- * they are from the truth, because they are as far from each other. */
+/* Pictures of the same scene with different seeds. No reference is needed to tell how far
+ * they are from the truth: they are as far from each other. */
 typedef struct survey {
     double mean;  /* over pictures, pixels and channels */
     double error; /* the standard deviation over pictures, as rt_image_error has it */
@@ -355,9 +356,9 @@ static survey noise_of(const subject *s, rt_sampler sampler, int samples, bool h
 
 static void test_sobol_needs_half_of_the_samples(void **state)
 {
-    /* The error of n random numbers falls as 1/sqrt(n): what 16 and 64 of them give says what
-     * 256 will. So the ratio of the squares of the errors is the ratio of samples for the
-     * same error. */
+    /* The error of n random numbers falls as 1/sqrt(n), so 16 and 64 of them tell what
+     * 256 will give. So the ratio of the squares of the errors is the ratio of samples
+     * for the same error. */
     (void)state;
     subject large = room;
     large.width = 64;
@@ -565,7 +566,7 @@ static void test_half_costs_sobol_little(void **state)
 
 static void test_stop_at_a_wanted_error(void **state)
 {
-    /* The true error, from pictures that all wanted the same, is at most what was wanted, and
+    /* The true error, from pictures that all wanted the same error, is at most that, and
      * not much less: the samples are counted in steps of an eighth. */
     (void)state;
     const double wanted[] = {0.08, 0.12};
@@ -592,7 +593,7 @@ static void test_stop_at_a_wanted_error(void **state)
                       100 * truth.error, (double)samples / SEEDS);
         assert_true(truth.error <= 1.05 * wanted[kind]);
         assert_true(truth.error >= 0.8 * wanted[kind]);
-        assert_true(samples > 20 * SEEDS); /* else there was nothing to decide */
+        assert_true(samples > 20 * SEEDS); /* otherwise there was nothing to decide */
     }
 }
 
@@ -636,7 +637,7 @@ static void test_stop_after_some_time(void **state)
     const double took = rt__seconds() - start;
     print_message("0.15 s wanted, %.3f s, %d samples and %d pixels\n", took,
                   image.samples, image.done);
-    assert_true(took >= 0.15 && took < 1.2); /* the machine may have other things to do */
+    assert_true(took >= 0.15 && took < 1.2); /* the machine may be busy */
     assert_true(image.samples >= 1);
     free_picture(&image);
 }

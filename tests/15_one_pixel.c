@@ -80,7 +80,7 @@ static rt_path traced(const struct view *v, const rt_image *image, int x, int y,
     return path;
 }
 
-/* Each view's samples have the mean and the rays of the picture, to the bit. */
+/* The samples of each view have the mean and the rays of the picture, to the bit. */
 static void check_samples(const struct view *list, size_t count)
 {
     for (size_t n = 0; n < count; n++) {
@@ -388,8 +388,8 @@ static void assert_near(rt_vec3 a, rt_vec3 b)
 
 static void test_two_what_the_points_add_is_the_sample(void **state)
 {
-    /* To rounding; of each point it is what shines by itself, or the sky, or the lamp that was met
-     * by chance, and what the shadow rays brought. */
+    /* Up to rounding. For each point it is what shines by itself, or the sky, or the lamp
+     * that was met by chance, and what the shadow rays brought. */
     (void)state;
     for (size_t n = 0; n < COUNT(views_two); n++) {
         rt_image image = rendered(&views_two[n]);
@@ -422,7 +422,8 @@ static void test_two_what_the_points_add_is_the_sample(void **state)
     }
 }
 
-/* How the path went on from v is what its event says, and the next throughput what that leaves. */
+/* The path went on from v as its event says, and the next throughput is what that
+ * leaves. */
 static void check_event(const rt_vertex *v, const rt_vertex *next, bool roulette)
 {
     const rt_surface *surface = &finishes[v->shape];

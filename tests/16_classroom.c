@@ -63,7 +63,7 @@ static void test_a_wrong_routine_is_told_on_which_input(void **state)
     char first[2000];
     snprintf(first, sizeof first, "%.1999s", said);
     setenv("SEED_TO_TRY", "7",
-           1); /* another student number, other inputs, the same marks */
+           1); /* another student number: other inputs, the same marks */
     expect_run(0, "bert.c: rt_hit_sphere: directions of any length|6/8",
                "grade tests/classroom/submissions/bert.c");
     unsetenv("SEED_TO_TRY");

@@ -1,4 +1,4 @@
-/* Under fire: what outsiders found wrong, each fault with all that is of its kind. */
+/* Under fire: what outsiders found wrong, each fault with its whole kind. */
 #define _GNU_SOURCE /* feenableexcept */
 #include <fenv.h>
 #include <stdlib.h>
@@ -59,7 +59,7 @@ typedef struct shapes {
 enum { BOXES = 1, SPHERES = 2, MIXED = BOXES | SPHERES };
 enum { CUT_OFF, NESTED, CORNERED, EQUAL, LINE, DEEP_KINDS };
 
-/* Shape number k at x, so large in y and z, and flat if it is a box. */
+/* Put shape number k at x, of this size in y and z, and flat if it is a box. */
 static void add_shape(shapes *s, int of, int k, float x, float y, float z)
 {
     if (of == SPHERES || (of == MIXED && k % 2 == 0)) {
@@ -86,8 +86,9 @@ static shapes deep_shapes(int kind, int of, int bits)
     s.scene.boxes = s.boxes;
     double x = 1e8;
     if (kind == CUT_OFF) {
-        /* crosses, each near by 1.25: the cheapest cut takes off one, seven at each level;
-         * then the second half large, the first small and nearer, and so on within it */
+        /* crosses, each 1.25 times nearer: the cheapest cut takes off one, seven at each
+         * level; then the second half large, the first small and nearer, and so on within
+         * it */
         for (int k = 0; k < chain; k++, x /= 1.25)
             if (of == SPHERES)
                 add_shape(&s, of, k, (float)x, (float)x / 9, 1e-3f);
@@ -115,8 +116,8 @@ static shapes deep_shapes(int kind, int of, int bits)
     return s;
 }
 
-/* How deep the tree is, and how many items wait at most: of each node that was entered on
- * the way, all but the one that is entered next. */
+/* How deep the tree is, and how many items wait at most: from each node entered on the
+ * way, all but the one that is entered next. */
 static void look_at_tree(const rt_bvh *bvh, int number, int levels, int waiting,
                          int *deepest, int *most, int *found)
 {
@@ -170,7 +171,7 @@ static void test_no_tree_is_deeper_than_there_is_room_to_search(void **state)
 {
     (void)state;
     int levels =
-        0; /* in halves an eighth is left at each, of the most that there may be */
+        0; /* in halves, each level leaves an eighth of the most that there may be */
     for (int64_t n = INT_MAX; n > 1; n = (n + 7) / 8)
         levels++;
     assert_in_range(RT__HALVES + levels, 1, RT__LEVELS);
@@ -519,8 +520,8 @@ static void test_no_path_leaves_a_closed_room_or_hits_where_it_is(void **state)
             check_path(kind, k & 1, k & 2 ? 1000 : 0, k & 4, 10000);
 }
 
-/* Rays that pass the top of a cube and come down beside it, on a wall or on the floor: what
- * they hit there is not in the cube, on whose inside the path would go on. */
+/* Rays that pass the top of a cube and come down beside it, on a wall or on the floor:
+ * what they hit there is not in the cube, or the path would go on inside it. */
 static void test_what_comes_down_beside_a_cube_is_not_in_it(void **state)
 {
     (void)state;
@@ -541,7 +542,7 @@ static void test_what_comes_down_beside_a_cube_is_not_in_it(void **state)
 
 /* ---- the mean ----------------------------------------------------------------------- */
 
-/* A pixel that is bright now and then, and the sum of what it gave. */
+/* A pixel that is sometimes bright, and the sum of what it gave. */
 typedef struct flicker {
     float dark, bright, chance;
     double *sum; /* or NULL */
@@ -732,7 +733,7 @@ static void test_a_path_ends_when_nothing_is_left(void **state)
     assert_in_range(rays_of_path(rt_vec(0.97f, 0.97f, 0.97f), false, 100000, 0), 4000,
                     20000);
     assert_in_range(rays_of_path(rt_vec(0.8f, 0.8f, 0.8f), true, 10000000, 0), 300, 930);
-    for (int i = 1; i <= 9; i++) { /* each has a denormal number of its own to stick at */
+    for (int i = 1; i <= 9; i++) { /* each gets stuck at a denormal number of its own */
         const float rho = (float)i / 10;
         const uint32_t most = (uint32_t)(2 * (104 / -log((double)rho) + 2));
         assert_in_range(rays_of_path(rt_vec(rho, 0, 0), false, INT_MAX - 1, 0), 2, most);
@@ -781,7 +782,7 @@ static double off_by(const rt_scene *scene, const rt_camera *camera, double exac
 
 static double furnace_off_by(float rho, int samples, rt_sampler sampler)
 {
-    /* direct light is rho everywhere, and what comes after rho^2 + rho^3 ... */
+    /* direct light is rho everywhere, and later light is rho^2 + rho^3 ... */
     const rt_sphere sphere = {{0, 0, 0}, 10, {{rho, rho, rho}, false}};
     const float i = 314.15927f;
     const rt_light light = {{0, 0, 0}, {i, i, i}};
@@ -826,7 +827,8 @@ static double fog_off_by(int samples)
     return off_by(&scene, &camera, 1, samples, RT_SOBOL);
 }
 
-/* Up a shaft of two mirrors that take a tenth: so many times 0.9, whatever the roulette. */
+/* Up a shaft of two mirrors that take a tenth: 0.9 to the power of the bounces, whatever
+ * the roulette. */
 static double shaft_off_by(uint32_t n)
 {
     const rt_material mirror = {{0.9f, 0.9f, 0.9f}, true};
@@ -1006,12 +1008,12 @@ static watcher render_slowly(const slow *s, int threads, int lanes, double secon
     return w;
 }
 
-/* Where the machine has other things to do, it may keep a thread waiting for any time. What is
- * late each of so many times is late by itself. */
+/* A busy machine may keep a thread waiting for any time. What is late in every one of so
+ * many tries is late by itself. */
 enum { TRIES = 8 };
 
-/* Asked every 15 ms, and at least every 50; here twice that. Meanwhile the image stands still
- * and makes sense. */
+/* Asked every 15 ms, and at least every 50; here twice that is allowed. Meanwhile the
+ * image does not change and makes sense. */
 static void check_progress(int kind, int bounces, int threads, int lanes, double seconds,
                            double stop)
 {
@@ -1167,7 +1169,7 @@ static void test_rays_of_nan_or_infinity_cost_no_more_than_others(void **state)
 
 /* ---- traps -------------------------------------------------------------------------- */
 
-/* clang without -ftrapping-math computes what the program would not. */
+/* clang without -ftrapping-math computes what the program does not ask for. */
 #if defined(__GLIBC__) && !defined(__clang__) && defined(__SSE2_MATH__)
 #define TRAPS (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW)
 #endif
@@ -1177,7 +1179,7 @@ static rt_vec3 trap_pixels[32 * 24], trap_half[32 * 24];
 static rt_guide trap_guides[32 * 24];
 static rt_lens trap_lens; /* a pinhole, unless told */
 
-/* The picture, with traps, or with packets, with flags, too, that must stay. */
+/* The picture, with traps; with packets also with flags, which must stay. */
 static void check_traps(const rt_scene *scene, const rt_camera *camera)
 {
     rt_image image = small_image(32, 24, trap_pixels);
@@ -1249,7 +1251,7 @@ static void check_traps_in_scenes(void)
     check_traps(&scene, &narrow);
     check_traps(&scene, &wide);
 
-    /* as large, as small, as far away as is allowed */
+    /* as large, as small, as far away as allowed */
     const rt_sphere extreme[] = {{{1e15f, 1e15f, 1e15f}, 1e15f, {{1, 1, 1}, false}},
                                  {{-1e15f, 1e15f, -1e15f}, 1e-40f, {{1, 1, 1}, true}},
                                  {{0, 0, -1e-30f}, 1e-38f, {{1e-38f, 1, 1}, false}},
@@ -1292,7 +1294,7 @@ static rt_vec3 odd_albedo(const void *data, rt_vec3 point, rt_vec3 normal)
     return rt_vec(point.x > 0 ? 1e30f : -1e30f, normal.y, 1e-40f);
 }
 
-/* All that part two has, in moderate numbers and in those of the limits. */
+/* All that part two has, with moderate numbers and with those at the limits. */
 static void check_traps_in_part_two(void)
 {
     const rt_camera ahead = {.fov_y = 60};
@@ -1598,7 +1600,7 @@ static void test_a_sphere_is_hit_from_a_million_million_radii(void **state)
             ray.direction = rt_scale(ray.origin, -1);
             rt_hit hit = untouched;
             const bool hits = rt_hit_sphere(&s, &ray, FLT_MAX, &hit);
-            if (e > 12) { /* if it is hit, then with a normal */
+            if (e > 12) { /* if it is hit, it has a normal */
                 if (hits)
                     assert_close(rt_length(hit.normal), 1, 1e-6);
                 continue;
@@ -1609,8 +1611,8 @@ static void test_a_sphere_is_hit_from_a_million_million_radii(void **state)
                          2e-6);
             assert_close(rt_dot(hit.normal, out), 1, 1e-2);
 
-            /* aimed at its rim and beside: as the distance from the ray says, unless that
-             * is so close to the radius that no double can tell */
+            /* aimed at its rim and beside it: the distance from the ray decides, unless
+             * it is so close to the radius that no double can tell */
             const rt_vec3 side = rt_normalize(rt_cross(out, random_direction(&rng)));
             const float beside = i % 2 == 0 ? uniform(&rng, 0, 2) : 1.5f;
             ray.direction = rt_sub(rt_scale(side, beside * s.radius), ray.origin);

@@ -147,7 +147,7 @@ static void test_a_first_look(void **state)
                                     rt_vec(0, 3, -5), light.intensity);
     assert_vec(g.direct, 0.5f * sent.x, 0.5f * sent.y, 0, 1e-5);
     assert_int_equal(rng.rays, 1); /* one question to the lamp */
-    /* no bounce: the mirror itself, which is black then */
+    /* no bounce: the mirror itself, which is then black */
     g = rt_first_look(&scene, &ray, 0, &rng);
     assert_vec(g.point, 0, 0, 0, 0);
     assert_vec(g.albedo, 0.5f, 0.5f, 0.5f, 0);
@@ -162,7 +162,7 @@ static void test_a_first_look(void **state)
 
 static void test_a_look_ends_on_the_fifth_mirror(void **state)
 {
-    /* Between two mirrors, 2 apart, it never ends; after four it is enough. */
+    /* Between two mirrors, 2 apart, it would never end; it stops after four. */
     (void)state;
     const rt_box mirrors[2] = {{{-9, -9, -2}, {9, 9, -1}, {{0.9f, 0.9f, 0.9f}, true}},
                                {{-9, -9, 1}, {9, 9, 2}, {{0.9f, 0.9f, 0.9f}, true}}};
@@ -262,7 +262,7 @@ static void test_it_is_what_the_demo_does_by_hand(void **state)
 
 static void test_a_channel_that_sends_nothing_on(void **state)
 {
-    /* It shows no light, and is taken for the mean of the others: as by hand. */
+    /* It shows no light, so the mean of the others is taken: as by hand. */
     (void)state;
     main_of_the_demo(0, NULL);
     rt_sphere spheres[7];
@@ -328,8 +328,8 @@ static void test_the_image_goes_on_as_before(void **state)
 
 static void test_it_is_nearer_to_the_truth(void **state)
 {
-    /* At 16 samples a quarter of the error at most, half of it at every count, and no harm
-     * where there is hardly any noise left. */
+    /* At most a quarter of the error at 16 samples, half of it at every count, and no
+     * harm where hardly any noise is left. */
     (void)state;
     picture truth = room(160, 120, 1024, 99);
     double before = 1;
@@ -547,7 +547,8 @@ static void test_a_picture_that_was_stopped(void **state)
     p.image.done = 600;
     assert_int_equal(rt_denoise(&p.image, 0, &p.result), RT_OK);
     assert_int_equal(p.result.done, 600);
-    /* odd = (5 all - 3 even) / 2 where there is one more, 2 all - even elsewhere */
+    /* odd = (5 all - 3 even) / 2 for pixels with one more sample, 2 all - even
+     * elsewhere */
     const rt_vec3 one = {1, 1, 1}, two = {2, 2, 2};
     assert_vec(rt__part_of(&p.image, RT__ODD, 599, one, two), -0.5f, -0.5f, -0.5f, 1e-6);
     assert_close(rt__spread(&p.image, RT__ODD, 599), sqrt(3.75), 1e-6);
@@ -557,7 +558,7 @@ static void test_a_picture_that_was_stopped(void **state)
     free_picture(&fewer);
 }
 
-/* A picture of the even samples only, or of the odd ones, with the variance that it has. */
+/* A picture of only the even samples, or only the odd ones, with its variance. */
 static picture half_of(const rt_image *image, bool odd)
 {
     picture p = new_picture(image->width, image->height);

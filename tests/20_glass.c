@@ -29,7 +29,7 @@ static float any_eta(rt_rng *rng)
     return rt_random(rng) < 0.5f ? eta : 1.0f / eta;
 }
 
-/* A direction onto a surface with this normal, at all angles alike. */
+/* A direction onto a surface with this normal, all angles equally likely. */
 static rt_vec3 onto(rt_rng *rng, rt_vec3 normal)
 {
     const rt_vec3 d = random_direction(rng);
@@ -60,7 +60,7 @@ static void test_fresnel_at_brewsters_angle(void **state)
 
 static void test_fresnel_against_double(void **state)
 {
-    /* Within 2e-5, but near the critical angle, where F rises like a root. */
+    /* Within 2e-5, except near the critical angle, where F rises like a root. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 200);
     double worst = 0, worst_near = 0;
@@ -78,7 +78,7 @@ static void test_fresnel_against_double(void **state)
 
 static void test_fresnel_both_ways_is_the_same(void **state)
 {
-    /* From outside at the angle i, and from inside at the angle t that goes with it. */
+    /* From outside at the angle i, and from inside at the corresponding angle t. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 201);
     for (int i = 0; i < 100000; i++) {
@@ -103,8 +103,9 @@ static double mean_fresnel(float eta)
 
 static void test_fresnel_in_the_mean(void **state)
 {
-    /* Outside 0.091778. Inside, only directions within the critical angle come out, a part 1 /
-     * eta^2 of them, and as much of their light as goes in: 1 - (1 - 0.091778) / 2.25. */
+    /* Outside 0.091778. Inside, only directions within the critical angle get out, the
+     * part 1 / eta^2 of all, and with as much of their light as gets in: 1 - (1 -
+     * 0.091778) / 2.25. */
     (void)state;
     const double outside = mean_fresnel(1.5f), inside = mean_fresnel(1 / 1.5f);
     assert_close(outside, 0.091778, 1e-6);
@@ -167,7 +168,7 @@ static void test_refract_is_snells_law(void **state)
         const rt_dvec3 across = rt_dcross(rt_to_double(d), dn),
                        on = rt_dcross(rt_to_double(t), dn);
         const rt_dvec3 differ = rt_dmad(across, -(double)eta, on);
-        /* of the length of what it is made of: I / eta is up to 4 long */
+        /* relative to its terms: I / eta is up to 4 long */
         const double size = eta > 1 ? (double)eta : 1;
         const double law = sqrt(rt_ddot(differ, differ)) / size;
         const double length = fabs((double)rt_length(t) - 1);
@@ -203,7 +204,7 @@ static void test_refract_there_and_back(void **state)
         const float eta = uniform(&rng, 1.05f, 4);
         rt_vec3 t = {7, 7, 7}, back = t;
         assert_true(rt_refract(d, n, eta, &t));
-        if (rt_dot(d, n) > -0.05f) /* flat: what is lost is lost */
+        if (rt_dot(d, n) > -0.05f) /* too flat to tell */
             continue;
         assert_true(rt_refract(rt_scale(t, -1), rt_scale(n, -1), 1 / eta, &back));
         assert_vec(back, -d.x, -d.y, -d.z, 1e-4);
@@ -212,8 +213,8 @@ static void test_refract_there_and_back(void **state)
 
 static void test_total_reflection_where_it_should_be(void **state)
 {
-    /* 0 wrong of a million; within a rounding of the critical angle either will do. Where there
-     * is no direction, *refracted is left alone, and F is 1. */
+    /* 0 wrong of a million; within a rounding of the critical angle either answer will
+     * do. Where there is no direction, *refracted is left alone, and F is 1. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 205);
     int total = 0, wrong = 0;
@@ -390,8 +391,8 @@ static rt_vec3 with_rays(const rt_scene *scene, const rt_ray *ray, int bounces,
 
 static void test_a_surface_of_glass_is_one_bounce(void **state)
 {
-    /* Straight through a ball: two surfaces. With one bounce the way ends inside; the ray more
-     * that is sent then is for lamps only. */
+    /* Straight through a ball: two surfaces. With one bounce the path ends inside; the
+     * extra ray that is then sent is for lamps only. */
     (void)state;
     const rt_surface glass = {.eta = 1.5f};
     rt_scene scene = of_sphere(&ball, &glass);
@@ -475,8 +476,8 @@ static rt_vec3 half_a_sky(const void *data, rt_vec3 direction)
 
 static void test_a_slab_of_coloured_glass(void **state)
 {
-    /* Each way through it, at the angle t to the normal, leaves exp(-a d / cos t). All ways
-     * together, with one more to and fro for each F^2:
+    /* Each way through it, at the angle t to the normal, leaves exp(-a d / cos t). All
+     * ways together, each further trip to and fro adding a factor F^2:
      *
      *     (1 - F)^2 e / (1 - F^2 e^2),      e = exp(-a d / cos t). */
     (void)state;
@@ -586,7 +587,7 @@ static void test_clear_glass_vanishes_in_an_even_light(void **state)
 
 static void test_eta_1_is_invisible(void **state)
 {
-    /* A floor behind it, lit from the side: with two bounces more, the same values. */
+    /* A floor behind it, lit from the side: with two more bounces, the same values. */
     (void)state;
     const rt_sphere spheres[2] = {{{0, 0, -12}, 4, {{0.9f, 0.5f, 0.2f}, false}}, ball};
     const rt_surface table[2] = {{.eta = 0}, {.eta = 1}};
@@ -607,11 +608,11 @@ static void test_eta_1_is_invisible(void **state)
                       expected = rt_radiance_mis(&without, &ray, 0, &b);
         rt_hit hit = untouched;
         if (!rt_intersect(&with, &ray, &hit) || hit.shape != 1)
-            continue; /* where the two bounces would be others */
+            continue; /* where the two bounces would be different ones */
         through++;
         rt_hit behind = untouched;
         const bool found = rt_intersect(&without, &ray, &behind);
-        /* at the very edge of the ball behind a rounding decides what the ray meets */
+        /* at the very edge of the ball behind it, rounding decides what the ray meets */
         if (!found || rt_dot(behind.normal, ray.direction) < -0.1f)
             assert_vec(seen, expected.x, expected.y, expected.z, 1e-4);
     }
@@ -665,8 +666,8 @@ static void test_no_ray_meets_the_surface_that_it_leaves(void **state)
 
 static void test_a_box_of_glass_has_no_leaks(void **state)
 {
-    /* What goes in comes out through some face, at last: a path that is never dark, also when it
-     * goes through edges and corners, and is absorbed by as much as its way is long. */
+    /* What goes in comes out through some face, at last: the path is never dark, even
+     * through edges and corners, and the absorption fits the length of its way. */
     (void)state;
     const rt_box box = {{-1, -1, -6}, {1, 1, -4}, {{0, 0, 0}, false}};
     const rt_surface glass = {.eta = 1.5f};

@@ -1,5 +1,5 @@
 /* Chapter 12: lamps with a size. */
-/* The demo puts its own routines in the place of these: not for the tests. */
+/* The demo replaces these by its own routines; the tests do not want that. */
 #pragma push_macro("rt_sample_lamp")
 #pragma push_macro("rt_lamp_density")
 #pragma push_macro("rt_mis")
@@ -122,8 +122,8 @@ static void test_meeting_a_parallelogram(void **state)
 
 static void test_no_sampled_direction_misses(void **state)
 {
-    /* 0 of a million, also for balls that are tiny, far away, or close to the point. The point
-     * itself lies on the lamp, on the side that is seen. */
+    /* 0 wrong of a million, even for balls that are tiny, far away, or close to the
+     * point. S itself lies on the lamp, on the side that is seen. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 220);
     int missed = 0;
@@ -140,7 +140,7 @@ static void test_no_sampled_direction_misses(void **state)
         const float r2 = rt_random(&rng);
         const rt_vec3 end = rt_sample_lamp(&lamp, point, r1, r2);
         const rt_ray ray = ray_of(point, rt_sub(end, point));
-        if (flat) { /* at the edge a rounding decides, of numbers up to 200 */
+        if (flat) { /* at the edge rounding decides, of numbers up to 200 */
             const float inner = 0.4999f - 4e-4f / rt_length(lamp.u);
             const bool edge = fabsf(r1 - 0.5f) > inner || fabsf(r2 - 0.5f) > inner;
             const rt_vec3 n = rt_normalize(rt_cross(lamp.u, lamp.v));
@@ -153,7 +153,7 @@ static void test_no_sampled_direction_misses(void **state)
         const rt_dvec3 off = rt_dsub(rt_to_double(end), rt_to_double(lamp.center));
         const double r = (double)lamp.radius;
         assert_close(sqrt(rt_ddot(off, off)), r, 2e-4 * r + 1e-6 * (d + 20));
-        /* not farther away than where the rays touch that just miss: the near side */
+        /* not farther than where rays just touch the ball: the near side */
         assert_true((double)rt_length(ray.direction) <
                     sqrt((d - r) * (d + r)) + 1e-3 * r + 1e-6 * (d + 20));
         const rt_dvec3 to = rt_dsub(rt_to_double(lamp.center), rt_to_double(point));
@@ -167,7 +167,7 @@ static void test_no_sampled_direction_misses(void **state)
 
 static void test_the_density_is_one_in_all(void **state)
 {
-    /* Over the directions that meet the lamp; of those that do not it is not asked. */
+    /* Over the directions that meet the lamp; it is not asked about others. */
     (void)state;
     enum { N = 40000 };
     rt_rng rng = rt_rng_start(0, 0, 221);
@@ -188,13 +188,13 @@ static void test_the_density_is_one_in_all(void **state)
                 met ? 4 * pi * (double)rt_lamp_density(&lamp, point, ray.direction) : 0);
         }
         if (m.squares / N <
-            2000) /* else the lamp is seen so flat that nothing is proved */
+            2000) /* otherwise the lamp is seen so flat that nothing is proved */
             assert_close(mean_of(&m), 1, doubt(&m) * 1.25);
     }
 }
 
-/* How often rt_sample_lamp chooses a direction of each of 16 x 16 cells, and how often it should
- * by rt_lamp_density: chi-square, as a deviation z of a normal variable. */
+/* How often rt_sample_lamp chooses a direction in each of 16 x 16 cells, and how often it
+ * should by rt_lamp_density: chi-square, as a deviation z of a normal variable. */
 static void check_chi_square(const rt_lamp *lamp, rt_vec3 point, uint32_t seed)
 {
     enum { CELLS = 16, N = 200000, FINE = 1600 };
@@ -329,8 +329,8 @@ static mean light_from(const rt_scene *scene, rt_vec3 from, int n, int bounces)
     return m;
 }
 
-/* The light of the lamps on the floor, found in three ways: by aiming alone, by chance alone, and
- * by rt_radiance_mis, in both; each is 0.5 E / pi. */
+/* The light of the lamps on the floor, found in three ways: by aiming alone, by chance
+ * alone, and by both with rt_radiance_mis; each is 0.5 E / pi. */
 static void check_three_ways(const rt_lamp *lamp, double irradiance, double tolerance)
 {
     enum { N = 100000 };
@@ -464,8 +464,8 @@ static void test_far_away_it_lights_like_a_point(void **state)
 
 static void test_a_lamp_is_seen_with_its_radiance(void **state)
 {
-    /* By the camera, in a mirror, through glass, whatever the bounces allow; on a mirror that
-     * takes light, less by that. */
+    /* Seen by the camera, in a mirror, through glass, whatever the number of bounces; in
+     * a mirror that takes light, less by that. */
     (void)state;
     const rt_box boxes[2] = {{{-50, -1, -50}, {50, 0, 50}, {{1, 0.5f, 0.25f}, true}},
                              {{-50, 8, -50}, {50, 9, 50}, {{0, 0, 0}, false}}};
@@ -568,8 +568,8 @@ static void test_a_lamp_within_a_wall_is_dark(void **state)
 
 static void test_within_a_lamp_all_is_as_bright_as_it(void **state)
 {
-    /* A camera in the lamp sees its radiance; so does a ball in it, which sends back its albedo of
-     * it, and to no more than one bounce more. */
+    /* A camera in the lamp sees its radiance. So does a ball in it, which sends back the
+     * part albedo of it; one more bounce adds nothing else. */
     (void)state;
     const rt_lamp lamp = ball_lamp(rt_vec(0, 0, 0), 10, 2);
     const rt_sphere ball = {{0, 0, -4}, 1, {{0.5f, 0.25f, 1}, false}};
@@ -607,7 +607,7 @@ static void make_cube(rt_box walls[6], float rho, bool mirror)
         walls[1].material.albedo = rt_vec(1, 1, 1);
 }
 
-/* The mean light that the five other walls send out, all bounces. */
+/* The mean light that the five other walls send out, with all bounces. */
 static mean light_of_walls(const rt_scene *scene, int n)
 {
     mean m = {0};
@@ -633,9 +633,9 @@ static mean light_of_walls(const rt_scene *scene, int n)
 
 static void test_a_white_room_is_as_bright_as_its_lamp(void **state)
 {
-    /* Nothing takes light but the lamp, which is black: so all is as bright as it, whatever the
-     * shapes are. That is exact only if each way to the lamp counts once: by aiming, by chance, and
-     * by way of the mirror. */
+    /* Only the lamp takes light; it is black. So everything is as bright as the lamp,
+     * whatever the shapes are. That is exact only if each way to the lamp counts once: by
+     * aiming, by chance, and by way of the mirror. */
     (void)state;
     rt_box walls[6];
     const rt_lamp lamps[2] = {ball_lamp(rt_vec(0.4f, 0.6f, 0.5f), 0.2f, 1),
@@ -656,8 +656,8 @@ static void test_a_white_room_is_as_bright_as_its_lamp(void **state)
 
 static void test_grey_walls_that_shine_in_balance(void **state)
 {
-    /* Walls that shine as much as they take, (1 - rho) L: then nothing shows that they are there.
-     * Whatever the way, every path brings L in the mean. */
+    /* Walls that shine as much as they take, (1 - rho) L: then nothing shows that they
+     * are there. Whatever its way, every path brings L on average. */
     (void)state;
     rt_box walls[6];
     rt_surface table[6] = {{.eta = 0}};
@@ -684,9 +684,9 @@ static void test_the_light_that_a_mirror_lost_is_back(void **state)
      *
      *     4 pi I = (1 - rho) 5 E + what the lamp takes itself,
      *
-     * and they send out rho E / pi: 0.8, were the lamp a point. A point light gives 5/6 of that:
-     * what it sends to the mirror no chance finds again. A lamp takes pi R^2 times 4 times the mean
-     * light that comes to it. */
+     * and they send out rho E / pi: 0.8 if the lamp were a point. A point light gives 5/6
+     * of that: no path finds what it sends to the mirror. A lamp takes pi R^2 times 4
+     * times the mean light that comes to it. */
     (void)state;
     rt_box walls[6];
     make_cube(walls, 0.5f, true);

@@ -1,5 +1,5 @@
 /* Chapter 13: gloss, and the loop that puts part two together. */
-/* The demo puts its own routines in the place of these: not for the tests. */
+/* The demo replaces these by its own routines; the tests do not want that. */
 #pragma push_macro("rt_sample_gloss")
 #pragma push_macro("rt_gloss")
 #define DEMO "../demos/demo13_gloss.c"
@@ -130,8 +130,8 @@ static void test_below_the_surface_there_is_none(void **state)
 
 static void test_light_may_go_either_way(void **state)
 {
-    /* What goes from a to b goes from b to a: both as radiance, so without the cosine of the light,
-     * which rt_gloss and rt_scatter have in them. */
+    /* What goes from a to b goes from b to a, both as radiance: without the cosine of the
+     * light, which rt_gloss and rt_scatter include. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 241);
     for (int i = 0; i < 100000; i++) {
@@ -152,11 +152,11 @@ static void test_light_may_go_either_way(void **state)
 
 /* ---- drawing directions ------------------------------------------------------------- */
 
-/* How often a direction is drawn, and how often it should be by the density that is said. Cells
- * are those of the slopes of h, halfway between the eye and the direction, in units of the lobe's
- * width: in coarse cells a sharp lobe would not be told from a wrong one. With h = (s, t, 1) / |.|
- * a piece ds dt of the slopes is h.z^3 ds dt of the directions h, and 4 <eye, h> times that of the
- * directions sought. Elsewhere, as below the surface, there is what is left. */
+/* How often a direction is drawn, and how often it should be by the stated density. Cells
+ * are in the slopes of h, halfway between the eye and the direction, in units of the
+ * lobe's width: coarse cells could not tell a sharp lobe from a wrong one. With h = (s,
+ * t, 1) / |.| a piece ds dt of the slopes is h.z^3 ds dt of the directions h, and 4 <eye,
+ * h> times that of the directions sought. The rest is elsewhere, as below the surface. */
 enum { CELLS = 32, FINE = 16, DRAWN = 200000 };
 
 /* Slopes of up to 30 in cells that grow with them: s = width (e^(k u) - 1), u from 0 to 1. */
@@ -295,7 +295,7 @@ static void test_the_chance_of_the_gloss_is_a_chance(void **state)
 
 /* ---- energy ------------------------------------------------------------------------- */
 
-/* What part of the light from all sides is sent to the eye. */
+/* The part of the light from all sides that is sent to the eye. */
 static mean albedo_of(const rt_brdf *finish, float cosine, int n)
 {
     mean m = {0};
@@ -315,8 +315,8 @@ static mean albedo_of(const rt_brdf *finish, float cosine, int n)
 
 static void test_the_lobes_albedo(void **state)
 {
-    /* The table of docs/13-gloss.md, by quadrature of another program. A lobe of facets that are
-     * all white loses what is reflected twice. */
+    /* The table of docs/13-gloss.md, by quadrature of another program. A lobe of
+     * all-white facets loses what is reflected twice. */
     (void)state;
     const double degrees[] = {0, 30, 60, 75, 85};
     const double n50[] = {0.950, 0.941, 0.897, 0.853, 0.868},
@@ -351,8 +351,9 @@ static void test_no_finish_makes_light(void **state)
 
 static void test_the_body_under_the_coat(void **state)
 {
-    /* A body without the coat's reflections, under light from all sides: what the formula says is
-     * chosen so that the mean over all eyes is albedo . 0.96, for 1.05 (1 - 1/21) = 1. */
+    /* A body without the coat's reflections, under light from all sides: the formula is
+     * chosen so that the mean over all eyes is albedo . 0.96, since 1.05 (1 - 1/21) =
+     * 1. */
     (void)state;
     mean m = {0};
     rt_rng rng = rt_rng_start(0, 0, 245);
@@ -372,7 +373,7 @@ static void test_the_body_under_the_coat(void **state)
 
 static void test_a_glossy_ball_in_an_even_light(void **state)
 {
-    /* What rt_radiance_mis makes of it is the albedo by quadrature, in the middle of the ball. */
+    /* In the middle of the ball, rt_radiance_mis gives the albedo by quadrature. */
     (void)state;
     const rt_sphere ball = {{0, 0, -5}, 1, {{0.9f, 0.9f, 0.9f}, true}};
     for (int metal = 0; metal < 2; metal++) {

@@ -25,8 +25,8 @@ static rt_lens any_lens(rt_rng *rng)
 
 static void test_all_of_the_lens_sees_one_point_of_the_sharp_plane(void **state)
 {
-    /* The ray from any point of the lens meets the plane at the distance focus, along the axis, in
-     * the point in which that through the middle meets it. */
+    /* The ray from any point of the lens meets the plane at the distance focus, along the
+     * axis, at the same point as the ray through the middle. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 260);
     for (int i = 0; i < 100000; i++) {
@@ -125,7 +125,7 @@ static rt_scene two_balls(void)
 
 static void test_radius_0_has_the_bits_of_the_pinhole(void **state)
 {
-    /* Whatever the focus: it does not count then. */
+    /* Whatever the focus, which does not count then. */
     (void)state;
     const rt_scene scene = two_balls();
     const rt_camera camera = {.fov_y = 60};
@@ -161,7 +161,8 @@ static rt_vec3 by_hand(const void *context, float x, float y, rt_rng *rng)
 
 static void test_rt_render_takes_rt_lens_ray(void **state)
 {
-    /* The film that it keeps is that of rt_lens_ray, to the bit; a pair of numbers for each ray. */
+    /* rt_render's film gives the rays of rt_lens_ray, to the bit; a pair of numbers for
+     * each ray. */
     (void)state;
     const rt_scene scene = two_balls();
     const rt_camera camera = {
@@ -176,7 +177,7 @@ static void test_rt_render_takes_rt_lens_ray(void **state)
 
 static void test_what_is_in_focus_is_sharp(void **state)
 {
-    /* A wall with one edge, black and white: the part of the picture that is neither. */
+    /* A wall with one edge, black and white; the part of the picture that is neither. */
     (void)state;
     int blurred[3] = {0};
     const float focus[3] = {5, 10, 20};

@@ -126,7 +126,8 @@ static void test_a_checker_on_the_floor(void **state)
 
 static void test_light_goes_on_with_the_pattern(void **state)
 {
-    /* In an even light a ball shows its pattern; twice of it where the light came by way of it. */
+    /* In an even light a ball shows its pattern; twice where the light came by way of the
+     * ball. */
     (void)state;
     const rt_surface surface = {.pattern = checker};
     rt_scene scene = of_box(&floor_box, &surface);
@@ -208,8 +209,8 @@ static void test_a_pattern_of_one_colour_is_an_albedo(void **state)
 
 static void test_black_of_a_pattern_is_black_on_a_mirror(void **state)
 {
-    /* An albedo of 0 in the material of a mirror means 1, for that is what a material all zero is;
-     * what a pattern returns means what it says. */
+    /* An albedo of 0 in the material of a mirror means 1, since a material may be all
+     * zero; what a pattern returns means what it says. */
     (void)state;
     const rt_surface surfaces[2] = {{.pattern = checker},
                                     {.pattern = checker, .shininess = 100}};

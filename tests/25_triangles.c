@@ -7,8 +7,8 @@
 
 /* ---- exact: against numbers that are not rounded -------------------------------------- */
 
-/* Each edge is the edge of two triangles, once in each direction, and the outside is outside:
- * else a leak would say nothing. */
+/* Each edge belongs to two triangles, once in each direction, and the outside is outside:
+ * otherwise a leak would prove nothing. */
 static void test_exact_meshes_are_closed(void **state)
 {
     (void)state;
@@ -54,8 +54,8 @@ static void test_exact_numbers(void **state)
     assert_int_equal(side_of(&ray, beside, beside), 0);
 }
 
-/* 0 leaks, 0 triangles missed, 0 hit in error, and t as near as a float can be; of all these
- * rays, too, that are aimed at edges and corners. */
+/* 0 leaks, 0 triangles missed, 0 hit in error, and t as near as a float can be, even for
+ * the rays that are aimed at edges and corners. */
 static void test_exact_on_seven_meshes(void **state)
 {
     (void)state;
@@ -97,7 +97,7 @@ static rt_scene scene_of(const rt_mesh *meshes, int count)
     return scene;
 }
 
-/* The coordinates moved round by so many axes, and mirrored if odd is set. */
+/* The coordinates rotated by so many axes, and mirrored if odd is set. */
 static rt_vec3 moved_round(rt_vec3 v, int by, bool odd)
 {
     const rt_vec3 w = by == 0   ? v
@@ -208,8 +208,8 @@ static void test_winding_says_what_is_inside(void **state)
     assert_true(both > 500);
 }
 
-/* t, and how far P is from the plane, from the ray, and from what u and v say. Double has 29
- * digits more than float: where the answer is not a matter of the last of them, it is exact. */
+/* t, and how far P is from the plane, from the ray, and from what u and v say. Double has
+ * 29 bits more than float: unless the answer depends on the last of them, it is exact. */
 static void test_against_cramers_rule_in_double(void **state)
 {
     (void)state;
@@ -268,7 +268,7 @@ static void test_against_cramers_rule_in_double(void **state)
 
 static void test_directions_of_any_length(void **state)
 {
-    /* By a power of two t changes by just that, and P, u, v, N not at all. */
+    /* By a power of two t changes by exactly that, and P, u, v, N not at all. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 262);
     int hits = 0;
@@ -368,7 +368,7 @@ static void test_without_area_there_is_nothing(void **state)
 
 static void test_slivers(void **state)
 {
-    /* As thin as floats can be: what they say, if they are hit, is finite and makes sense. */
+    /* As thin as floats can be: a hit, if there is one, is finite and makes sense. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 264);
     int hits = 0;
@@ -412,9 +412,9 @@ static void test_from_the_edge_there_is_nothing_to_see(void **state)
     }
 }
 
-/* Rays in the planes of triangles, whole numbers all: where rounding makes an area of them, the ray
- * must still meet the box around the triangle. (But the place on it is rounding, and so one that
- * lies behind may seem to lie ahead, once in 40 000 times.) */
+/* Rays in the planes of triangles, all in whole numbers: where rounding gives them an
+ * area, the ray must still meet the box around the triangle. (But the place on it is
+ * rounding, so one that lies behind may seem to lie ahead, once in 40 000 times.) */
 static void test_nothing_is_met_far_out_in_its_plane(void **state)
 {
     (void)state;
@@ -481,7 +481,8 @@ static void test_what_is_not_finite_misses(void **state)
 
 static void test_huge_and_tiny_is_the_same(void **state)
 {
-    /* All lengths times 2^50, about 1e15, or 2^-100, about 1e-30: all results are, too. */
+    /* All lengths times 2^50, about 1e15, or 2^-100, about 1e-30: all results scale
+     * likewise. */
     (void)state;
     const int powers[] = {-110, -100, -40, 30, 50};
     rt_rng rng = rt_rng_start(0, 0, 265);
@@ -518,7 +519,7 @@ static void test_huge_and_tiny_is_the_same(void **state)
 
 /* ---- in a scene ----------------------------------------------------------------------- */
 
-/* A wall of one's own at z = -4. */
+/* A wall as a custom shape at z = -4. */
 static bool hit_wall(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
 {
     (void)data;
@@ -745,8 +746,8 @@ static void test_the_meshes_are_closed(void **state)
     }
 }
 
-/* A direction from the point of this hit: by chance, as in a mirror, or, which random numbers
- * never do, to a point of an edge or to a corner. */
+/* A direction from the point of this hit: by chance, as in a mirror, or to a point of an
+ * edge or a corner, which random numbers never hit. */
 static rt_vec3 way_on(const rt_mesh *mesh, const rt_hit *hit, rt_vec3 from, int how,
                       rt_rng *rng)
 {
@@ -769,8 +770,8 @@ static rt_vec3 way_on(const rt_mesh *mesh, const rt_hit *hit, rt_vec3 from, int 
 
 static void test_no_path_leaves_a_closed_mesh(void **state)
 {
-    /* 1.3 million bounces. In a mesh that is not convex, a ray that is aimed at an edge may touch
-     * it from inside: then either answer would be good, and it is not aimed. */
+    /* 1.3 million bounces. In a mesh that is not convex, a ray that is aimed at an edge
+     * may touch it from inside; either answer would be good, so no ray is aimed. */
     (void)state;
     enum { BOUNCES = 40000 };
     rt_rng rng = rt_rng_start(0, 0, 267);
@@ -894,9 +895,9 @@ static void test_the_tree_finds_what_the_loop_finds(void **state)
 
 static void test_a_furnace_of_triangles(void **state)
 {
-    /* Within a closed mesh whose walls send E and reflect rho, the n-th bounce brings E rho^n, and the
-     * ray after the last one still looks: all
-     * paths the same, without noise, if none gets out and none is lost. */
+    /* Within a closed mesh whose walls send E and reflect rho, the n-th bounce brings E
+     * rho^n, and the ray after the last one still looks. All paths bring the same,
+     * without noise, if none gets out and none is lost. */
     (void)state;
     const int bounces[] = {0, 1, 5, 40};
     for (int k = 0; k < CLOSED; k++) {
@@ -1015,8 +1016,8 @@ static double difference(const rt_image *a, const rt_image *b)
 
 static void test_a_ball_of_triangles_is_a_ball(void **state)
 {
-    /* Of glass, of coloured glass, matt, a mirror: a sphere, and 20480 triangles. In glass that
-     * takes outside for inside it is another picture. */
+    /* Of glass, of coloured glass, matt, a mirror: a sphere, and 20480 triangles. Glass
+     * that takes outside for inside makes another picture. */
     (void)state;
     const rt_surface kinds[] = {{.eta = 1.5f},
                                 {.eta = 1.5f, .absorption = {2, 0.5f, 0.1f}},
@@ -1127,7 +1128,7 @@ static void test_a_floor_of_two_triangles_is_a_box(void **state)
         int far = 0;
         for (int i = 0; i < W * H; i++)
             far += rt_length(rt_sub(a.pixels[i], b.pixels[i])) > 1e-3f;
-        assert_true(far < 8); /* where a rounding decides what a ray meets */
+        assert_true(far < 8); /* where rounding decides what a ray meets */
         assert_vec(one, two.x, two.y, two.z, 1e-3);
         assert_true(one.x > 0.05f);
         free(a.pixels);

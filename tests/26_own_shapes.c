@@ -7,9 +7,9 @@
 static const rt_scene empty; /* all zero */
 static const float inf = INFINITY, nan_ = NAN;
 
-/* ---- shapes, and what is inside of them ----------------------------------------------- */
+/* ---- shapes, and what is inside them -------------------------------------------------- */
 
-/* F(P), below 0 inside, by another way than the shape's function goes. */
+/* F(P), below 0 inside, computed in another way than by the shape's function. */
 typedef double inside_function(rt_dvec3 p);
 
 typedef struct specimen {
@@ -131,7 +131,8 @@ static double moon_f(rt_dvec3 p)
     return larger(round_f(p, 0, 0, 0, 2), -round_f(p, 2, 0, 0, 2));
 }
 
-/* A ball with a hole; and a pair of which one is a pair: the same without the ring in its hole. */
+/* A ball with a hole; and a pair of which one is a pair: that ball without the ring in
+ * its hole. */
 static const cylinder drill = {{0, -3, 0}, 1, 6};
 static const rt_custom_shape drill_shape = {
     {-1, -3, -1}, {1, 3, 1}, {{0, 0, 0}, false}, cylinder_hit, &drill};
@@ -397,7 +398,7 @@ static void test_volumes(void **state)
 
 static void test_normals_are_the_slope(void **state)
 {
-    /* Of F, by differences; but not across an edge, where F's has a step. */
+    /* The gradient of F, by differences; but not across an edge, where it has a step. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 281);
     for (int k = 0; k < SPECIMENS; k++) {
@@ -503,7 +504,8 @@ static rt_vec3 a_point_inside(const specimen *s, rt_rng *rng)
 
 static void test_no_path_leaves_a_closed_shape(void **state)
 {
-    /* And outside, a ray that leaves a convex one meets it no more. From 3 to 300 sizes away. */
+    /* And outside, a ray that leaves a convex one does not meet it again. From 3 to 300
+     * sizes away. */
     (void)state;
     rt_rng rng = rt_rng_start(0, 0, 283);
     for (int k = 0; k < SPECIMENS; k++) {
@@ -703,8 +705,8 @@ static void test_lanes_draw_what_one_ray_draws(void **state)
 
 static void test_glass_of_ones_own(void **state)
 {
-    /* A ball by its own function is rt.h's ball; and any closed shape of clear glass vanishes in
-     * an even light. */
+    /* A ball by its own function is rt.h's ball. Any closed shape of clear glass vanishes
+     * in an even light. */
     (void)state;
     const rt_surface glass = {.eta = 1.5f, .absorption = {0.2f, 0, 0.4f}};
     const rt_sphere ball = {{0, 0, 0}, 4, GREY};
@@ -765,7 +767,8 @@ static bool say(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
     return l->yes;
 }
 
-/* What makes no sense is a miss, and leaves *hit alone; what does is completed. */
+/* An answer that makes no sense is a miss, and leaves *hit alone; one that does is
+ * completed. */
 static void test_what_makes_no_sense_is_a_miss(void **state)
 {
     (void)state;
@@ -836,7 +839,7 @@ static bool always(const void *data, const rt_ray *ray, float t_max, rt_hit *hit
     return true;
 }
 
-/* Yes, no, anywhere: another answer at each t_max, and each ray. */
+/* Yes, no, anywhere: another answer for each t_max, and each ray. */
 static bool at_random(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
 {
     uint32_t bits[7];
@@ -866,7 +869,7 @@ static bool only_within(const void *data, const rt_ray *ray, float t_max, rt_hit
 
 static void test_lies_do_no_harm(void **state)
 {
-    /* A picture, finite, of the same bits with all lanes; no crash, no path without end. */
+    /* A finite picture, with the same bits for all lanes; no crash, no endless path. */
     (void)state;
     static const float parts[] = {0, 0.25f, 0.999f};
     rt_hit_function *const functions[] = {always, at_random, only_within};
@@ -928,7 +931,7 @@ static void test_bad_boxes_and_no_function_are_refused(void **state)
         *s = good;
     }
     assert_true(strlen(rt_status_text(RT_BAD_CUSTOM_SHAPE)) > 20);
-    shapes[1].data = NULL;         /* is no one's business */
+    shapes[1].data = NULL;         /* is nobody's business */
     shapes[1].min = shapes[1].max; /* nor is a point */
     assert_int_equal(rt_check_scene(&scene, &index), RT_OK);
     scene.custom_shape_count = -1;

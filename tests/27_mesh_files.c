@@ -11,7 +11,7 @@ enum { W = 40, H = 30 };
 static const char small[] =
     "40 30 --samples 2 --bounces 3 --no-denoise --no-window --quiet";
 
-/* A roof over a square, and a part of it once more, twice as high. */
+/* A roof over a square, and a part of it again, twice as high. */
 static const rt_vec3 positions[] = {{0, 0, 0},    {2, 0, 0},       {2, 0, 2},
                                     {0, 0, 2},    {1, 1.25f, 1},   {0.5f, 0.5f, 3},
                                     {1.5f, 0, 3}, {1.5f, 2.5f, 3}, {0.5f, 0, 3}};
@@ -27,7 +27,7 @@ static bool has_assimp(void)
     return false;
 }
 
-/* What the demo makes of the file, is it what rt_render makes of the roof? */
+/* Does the demo make of the file what rt_render makes of the roof? */
 static void shows_the_roof(const char *demo, const rt_scene *scene, const char *file)
 {
     static rt_vec3 pixels[W * H];
@@ -132,7 +132,7 @@ static void test_four_formats_are_the_mesh(void **state)
     room_prepare(ON_THE_FLOOR);
     room_prepare(ON_THE_PEDESTAL);
     write_obj("roof.obj", 1);
-    write_obj("LARGE.OBJ", 1024); /* it is made as large as any */
+    write_obj("LARGE.OBJ", 1024); /* it is scaled to the size of any other */
     write_ply("roof.ply");
     write_stl("roof.stl");
     write_gltf("roof.gltf");

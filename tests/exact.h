@@ -7,9 +7,9 @@
 
 /* ---- sums without rounding ------------------------------------------------------------ */
 
-/* A number as a sum of doubles, the smallest first, of which none overlaps another; so the last
- * has the sign of all, and is nearly all (J. Shewchuk, "Adaptive precision floating-point
- * arithmetic", 1997). */
+/* A number as a sum of doubles that do not overlap, the smallest first; so the last has
+ * the sign of the sum, and is nearly all of it (J. Shewchuk, "Adaptive precision
+ * floating-point arithmetic", 1997). */
 typedef struct exact_sum {
     double part[112];
     int count;
@@ -77,7 +77,7 @@ static inline void exact_add_side(exact_sum *s, const rt_ray *ray, rt_vec3 p, rt
     exact_add_box(s, -1.0, ray->direction, ray->origin, q);
 }
 
-/* The sign in double, where that is beyond doubt; else the exact one. */
+/* The sign in double, where that is beyond doubt; otherwise the exact one. */
 static inline int side_of(const rt_ray *ray, rt_vec3 p, rt_vec3 q)
 {
     const rt_dvec3 o = rt_to_double(ray->origin), u = rt_to_double(ray->direction);
@@ -205,8 +205,8 @@ static inline rt_ray exact_ray(const exact_case *c, int kind, bool inside, rt_rn
 typedef bool triangle_function(const rt_mesh *mesh, int triangle, const rt_ray *ray,
                                float t_max, rt_hit *hit);
 
-/* What a routine got wrong: rays from inside that got out, triangles missed and hit against the
- * exact answer, t more than one float beside it. */
+/* What a routine got wrong: rays from inside that got out, triangles missed and hit
+ * against the exact answer, t more than one float off. */
 typedef struct exact_count {
     int leaks, misses, hits, off;
 } exact_count;
@@ -215,7 +215,7 @@ typedef struct exact_rays { /* what it was asked */
     int rays, touching;
 } exact_rays;
 
-/* So many rays of each kind, each against all triangles, by each of the ways. */
+/* Ask so many rays of each kind against all triangles, in each of the ways. */
 static inline void judge(const exact_case *c, int rays, triangle_function *const *ways,
                          int way_count, exact_count *counts, exact_rays *asked)
 {

@@ -69,7 +69,7 @@ int demo_main(int argc, char **argv, const demo *d)
                       : rt_render_pixels(pixel_of_the_demo, &view, &options, &image);
         if (status != RT_OK)
             return 1;
-        if (d->finish) { /* plainly, and sixteen pixels at a time */
+        if (d->finish) { /* one pixel and sixteen at a time */
             rt_image result = {.width = W, .height = H, .pixels = clean};
             rt_image plain = {.width = W, .height = H, .pixels = by_hand};
             if (rt_denoise(&image, threads, &result) != RT_OK ||

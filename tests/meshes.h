@@ -8,7 +8,7 @@
 #include <string.h>
 #include "../rt.h"
 
-/* A mesh that is being made: its arrays have room for all that will come. */
+/* A mesh in the making: its arrays have room for all that will come. */
 typedef struct growing_mesh {
     rt_vec3 *positions;
     int *indices;
@@ -62,8 +62,8 @@ static inline void free_mesh(rt_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-/* Each corner to center + size * corner; and each, with jitter, as much nearer or farther at
- * random. */
+/* Move each corner to center + size * corner; with jitter, up to so much nearer or
+ * farther at random. */
 static inline void place_mesh(rt_mesh *mesh, rt_vec3 center, float size, float jitter)
 {
     rt_vec3 *p = (rt_vec3 *)(uintptr_t)mesh->positions;
@@ -76,7 +76,7 @@ static inline void place_mesh(rt_mesh *mesh, rt_vec3 center, float size, float j
 
 /* ---- a sphere: an icosahedron, each triangle of which becomes four, again and again --- */
 
-/* The middle of an edge is made once, by whichever triangle comes first: a hash table. */
+/* Whichever triangle comes first makes the middle of an edge: a hash table. */
 typedef struct edge_middle {
     int a, b, middle; /* b 0: nothing here, since a < b */
 } edge_middle;
@@ -170,7 +170,7 @@ static inline rt_mesh make_globe(int rows, int columns)
 
 typedef bool cell_function(int x, int y, int z);
 
-/* A cube from -1 to 1 of n^3 cells, of which those are full: two triangles wherever a full one
+/* A cube from -1 to 1 of n^3 cells, some of them full: two triangles wherever a full one
  * has no full neighbour. n <= 400. */
 static inline rt_mesh make_cells(int n, cell_function *is_full)
 {
@@ -211,7 +211,7 @@ static inline bool is_any_cell(int x, int y, int z)
     return true;
 }
 
-/* Menger's sponge: without the cells that are in the middle of two axes or three, on any scale. */
+/* Menger's sponge: without the cells in the middle of two or three axes, on any scale. */
 static inline bool is_sponge(int x, int y, int z)
 {
     for (; x > 0 || y > 0 || z > 0; x /= 3, y /= 3, z /= 3)
@@ -222,8 +222,9 @@ static inline bool is_sponge(int x, int y, int z)
 
 /* ---- turned on a lathe, and a ring ------------------------------------------------------ */
 
-/* A profile of radius and height, turned round the axis y, from the bottom up; it begins and ends
- * on the axis, with radius 0. rings >= 3, columns >= 3; 2 (rings - 2) columns triangles. */
+/* A profile of radius and height, turned about the y axis, from the bottom up; it begins
+ * and ends on the axis, with radius 0. rings >= 3, columns >= 3; 2 (rings - 2) columns
+ * triangles. */
 static inline rt_mesh make_lathe(const double (*profile)[2], int rings, int columns)
 {
     growing_mesh m = new_mesh(2 + (rings - 2) * columns, 2 * (rings - 2) * columns);

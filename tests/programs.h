@@ -25,7 +25,7 @@ static inline int run(const char *command)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/* Run a demo, expect this status and, in what it says, all of these words ("|" between). */
+/* Run a demo; expect this status and all of these words ("|" between) in what it says. */
 static inline void expect(int status, const char *words, const char *arguments)
 {
     char command[7000], list[500];

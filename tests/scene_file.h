@@ -56,7 +56,8 @@ static inline char *read_whole_file(const char *path, size_t *size)
     return text;
 }
 
-/* ---- JSON: the first thing that is wrong is kept in file->error ---------------------- */
+/* ---- JSON: the first thing that is wrong goes into file->error
+ * ---------------------- */
 
 static inline void scene_error(scene_file *file, const char *name, const char *what)
 {

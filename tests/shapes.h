@@ -7,7 +7,7 @@
 
 /* ---- a plane -------------------------------------------------------------------------- */
 
-/* Without end: the box of the rt_custom_shape cuts it off. */
+/* Endless: the box of the rt_custom_shape cuts it off. */
 typedef struct plane {
     rt_vec3 point, normal; /* normal: any length, to its outside */
 } plane;
@@ -51,8 +51,8 @@ static inline bool cone_range(double a, double b, double c, bool down, double *i
         *out = (-b + sqrt(d > 0.0 ? d : 0.0)) / a;
         return d > 0.0;
     }
-    /* Steeper than the side: inside of one, then inside of the other. Of a t^2 + 2 b t + c the
-     * solutions are s / a and c / s, so nothing is lost where a is almost 0. */
+    /* Steeper than the side: inside one, then inside the other. The solutions of a t^2 +
+     * 2 b t + c are s / a and c / s, so nothing is lost where a is almost 0. */
     const double root = sqrt(d > 0.0 ? d : 0.0), s = b > 0.0 ? -b - root : root - b;
     if (s == 0.0)
         return false;
@@ -122,14 +122,15 @@ static inline bool cube_hit(const void *data, const rt_ray *ray, float t_max, rt
 
 /* ---- turned and stretched: turn the ray, not the shape --------------------------------- */
 
-/* The shape as it is in a world of its own, of which (0,0,0) is put to middle and the axes along
- * x, y, z: perpendicular to each other, and as long as the shape is to be stretched. */
+/* The shape in a world of its own, whose (0,0,0) is put at middle and whose axes are put
+ * along x, y, z: perpendicular to each other, and as long as the shape is to be
+ * stretched. */
 typedef struct turned {
     rt_vec3 middle, x, y, z;
     const rt_custom_shape *shape;
 } turned;
 
-/* v in the own world. */
+/* v in the shape's own world. */
 static inline rt_vec3 into(const turned *d, rt_dvec3 v)
 {
     const rt_dvec3 x = rt_to_double(d->x), y = rt_to_double(d->y), z = rt_to_double(d->z);
@@ -181,9 +182,9 @@ static inline rt_vec3 slope_of(const field *f, rt_dvec3 p, double h)
     return rt_to_float(rt_dscale(rt_dvec(x, y, z), 0.5 / h));
 }
 
-/* So far the ray may go on without meeting it; and again, and again, until the sign changes. Then
- * halve the last step until it is a point. Steps are never shorter than a rounding of P, or a ray
- * along the surface would take for ever. */
+/* The ray may go on so far without meeting the surface; and again, and again, until the
+ * sign changes. Then halve the last step until it is a point. Steps are never shorter
+ * than a rounding of P, or a ray along the surface would take for ever. */
 static inline bool field_hit(const void *data, const rt_ray *ray, float t_max,
                              rt_hit *hit)
 {
@@ -230,7 +231,8 @@ static inline double ring_distance(const void *data, rt_dvec3 point)
     return sqrt(out * out + p.y * p.y) - (double)r->half;
 }
 
-/* ---- one with, in, without the other ---------------------------------------------------- */
+/* ---- union, intersection, difference
+ * ---------------------------------------------------- */
 
 typedef struct pair {
     enum { A_OR_B, A_AND_B, A_WITHOUT_B } rule;
@@ -244,7 +246,8 @@ static inline bool is_in_pair(const pair *p, bool in_a, bool in_b)
                                 : in_a && !in_b;
 }
 
-/* The next point of A or B behind where the ray was met last. What comes of t is the whole way. */
+/* The next point of A or B after the last hit of the ray. The resulting t is the whole
+ * way. */
 static inline bool next_hit(const rt_custom_shape *shape, const rt_ray *ray, rt_hit *hit,
                             double *t)
 {
@@ -257,8 +260,9 @@ static inline bool next_hit(const rt_custom_shape *shape, const rt_ray *ray, rt_
     return true;
 }
 
-/* From each of the two, one hit after the other: hit->inside says whether the ray comes out there.
- * The first one at which it goes into the pair, or out of it, is the answer. */
+/* Takes one hit after the other from each of the two; hit->inside says whether the ray
+ * comes out there. The first one at which the ray enters or leaves the pair is the
+ * answer. */
 static inline bool pair_hit(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
 {
     const pair *p = (const pair *)data;
@@ -274,7 +278,7 @@ static inline bool pair_hit(const void *data, const rt_ray *ray, float t_max, rt
         if (before != behind) {
             *hit = is_a ? a : b;
             hit->t = (float)(is_a ? t_a : t_b);
-            if (before) /* their normal is on the side of the ray: inside */
+            if (before) /* the normal is on the side of the ray: inside */
                 hit->normal = rt_scale(hit->normal, -1.0f);
             return hit->t < t_max;
         }

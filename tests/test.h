@@ -40,7 +40,8 @@
                      (double)(Y), (double)(Z), (double)(tolerance));                     \
     } while (0)
 
-/* ---- random inputs: the same in every run ------------------------------------------- */
+/* ---- random inputs, the same in every run
+ * ------------------------------------------- */
 
 static inline float uniform(rt_rng *rng, float low, float high)
 {
@@ -216,8 +217,8 @@ static inline rt_image render_the_demo(int width, int height, int samples, uint3
     return image;
 }
 
-/* The demo's picture of this scene is rt_render's, to the bit, whatever the lanes. (Here rt.h has
- * its own routines; by the demo's it is compared in 09_command_line.) */
+/* The demo's picture of this scene is rt_render's, to the bit, whatever the lanes. (Here
+ * rt.h has its own routines; 09_command_line compares with those of the demo.) */
 static inline void check_against_rt_render(const rt_scene *scene)
 {
     rt_image theirs = render_the_demo(40, 30, 4, 1), ours = new_image(40, 30);

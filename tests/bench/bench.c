@@ -9,8 +9,8 @@
  *     bench error                 samples, relative error of random numbers, of Sobol points
  *     bench room                  the numbers of the room, for other programs
  *
- * LANES: 1 is the plain C of the chapters, 0 as many as the machine offers. Times are those of
- * the clock on the wall. */
+ * LANES: 1 is the plain C of the chapters, 0 as many as the machine offers. Times are
+ * wall-clock times. */
 #define _POSIX_C_SOURCE 200112L /* clock_gettime */
 #define RT_IMPLEMENTATION
 #include "bench.h"
@@ -37,8 +37,8 @@ static double render(const rt_scene *scene, const rt_options *options, rt_image 
     return took;
 }
 
-/* The best time of some runs of the same, a third of a second in all: other programs can only
- * add to it. */
+/* The best time of several equal runs, a third of a second in all: other programs can
+ * only add to it. */
 static double best_time(const rt_scene *scene, const rt_options *options, rt_image *image)
 {
     double best = 1e30, sum = 0.0;
@@ -69,7 +69,7 @@ static void speed(int lanes, int threads)
     rt_image image = {.width = w, .height = h, .pixels = pixels};
     rt_options options = {.samples = 8, .bounces = 5, .threads = threads, .lanes = lanes};
     double best = render(&scene_indirect, &options, &image);
-    if (best < 0.5) { /* not, where it takes seconds: -O0 */
+    if (best < 0.5) { /* not where it takes seconds: -O0 */
         options.samples = 8 * (int)(1.0 + 0.15 / best);
         best = best_time(&scene_indirect, &options, &image);
     }
@@ -181,9 +181,10 @@ static void error(void)
 
 /* ---- clean pictures ------------------------------------------------------------------ */
 
-/* The room with so many samples, finished: the error before and after, and the least seconds
- * of nine that it took with 1 and 2 threads. With a path, all that others need to do the same
- * is written there: true picture, noisy picture, normal, albedo, direct light. */
+/* The room with so many samples, finished: the error before and after, and the least
+ * seconds of nine that it took with 1 and 2 threads. If there is a path, it writes there
+ * all that others need to do the same: true picture, noisy picture, normal, albedo,
+ * direct light. */
 static void denoise(int samples, const char *path)
 {
     enum { w = 640, h = 480, n = w * h };

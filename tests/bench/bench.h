@@ -1,4 +1,4 @@
-/* What the programs that measure share: the clock on the wall, and a scene that grows. */
+/* What the programs that measure share: wall-clock time, and a scene that grows. */
 #ifndef BENCH_H
 #define BENCH_H
 

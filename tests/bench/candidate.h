@@ -1,4 +1,4 @@
-/* Who answers single rays: rt.h, or one of those that it is held against. See rays.c. */
+/* What answers single rays: rt.h, or a library that it is compared with. See rays.c. */
 #ifndef CANDIDATE_H
 #define CANDIDATE_H
 #include "../../rt.h"

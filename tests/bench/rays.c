@@ -13,14 +13,14 @@
  * build, on one thread and on all; bytes held per shape; how many of the rays hit something where
  * rt.h's hit nothing, or the other way round.
  *
- * Everybody asks in turns, and the best round counts. What one thread does is timed by the clock
- * of the program, which stands still while others have the core; the build on all threads by the
- * one on the wall. */
+ * The candidates take turns, and the best round counts. Work on one thread is timed by
+ * the program's own clock, which stops while others have the core; the build on all
+ * threads by wall-clock time. */
 #define _POSIX_C_SOURCE 200112L /* clock_gettime, sysconf */
 #include <stddef.h>
 #include <stdlib.h>
 
-/* What rt.h holds is counted where it asks for memory. */
+/* The memory of rt.h is counted where it asks for it. */
 static size_t held;
 
 static void *counted_malloc(size_t size)
@@ -138,9 +138,9 @@ static void add_ray(ray_list *list, rt_vec3 origin, rt_vec3 direction)
     list->rays[list->count++] = ray;
 }
 
-/* From rt.h's own hits, with its own chapters; but rays start this high above the surface. rt.h
- * needs none of it, rt_leave is enough: the others hit, in float, the large sphere that they
- * leave, and would be done sooner. */
+/* From rt.h's own hits, with its own chapters; but rays start this high above the
+ * surface. rt.h does not need that, rt_leave is enough; but in float the others would hit
+ * the large sphere that they leave, and be done sooner. */
 static void make_rays(const rt_scene *scene, const rt_camera *camera, float above,
                       ray_list *lists)
 {

@@ -1,4 +1,4 @@
-/* Routines of one's own in place of rt.h's: rt_render calls them, and only them. */
+/* Routines of the user's own in place of rt.h's: rt_render calls them, and only them. */
 #define rt_camera_ray my_camera_ray
 #define rt_hit_sphere my_hit_sphere
 #define rt_hit_box my_hit_box

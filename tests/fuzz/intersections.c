@@ -1,5 +1,6 @@
-/* libFuzzer: the bytes are a ray and a shape, or what the function of one's own shape says. Whatever they are, a hit is finite, in front of
- * the ray and before t_max, with a unit normal; a miss leaves the hit alone. */
+/* libFuzzer: the bytes are a ray and a shape, or what a custom shape's function says.
+ * Whatever they are, a hit is finite, in front of the ray and before t_max, with a unit
+ * normal; a miss leaves the hit alone. */
 #include <stdlib.h>
 #include <string.h>
 

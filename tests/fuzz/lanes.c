@@ -40,14 +40,14 @@ static bool with_surfaces, with_guides;
 
 /* ---- numbers ------------------------------------------------------------------------ */
 
-/* No expression asks for two random numbers, as their order would be the compiler's: a seed
- * makes the same scene with all of them. */
+/* No expression asks for two random numbers, since the compiler would choose their order:
+ * a seed makes the same scene with all compilers. */
 static rt_rng rng;
 static float unit;     /* of length */
 static rt_vec3 middle; /* of the scene: far from (0,0,0) few digits are left */
 
-/* The style of lengths: few different ones, so that things touch, coincide and line up; or
- * almost; or any. */
+/* The style of lengths: few different ones, so that things touch, coincide and line up;
+ * nearly so; or any. */
 enum { FEW, ALMOST, ANY, ALL_SIZES, STYLES };
 static int style;
 
@@ -484,7 +484,7 @@ static void reduce(void *array, size_t one, rt_surface *surfaces, int *count, in
     }
 }
 
-/* And of all else: each of these is better zero. */
+/* And of all the rest: set to zero what may be zero. */
 static void reduce_more(int lanes)
 {
     const rt_options all_options = options;

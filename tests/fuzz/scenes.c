@@ -1,6 +1,6 @@
-/* libFuzzer: the bytes are a whole small scene, with meshes and what a function of one's own
- * says, and the options. rt_render refuses it, or makes a picture without NaN, infinity or
- * negative values. */
+/* libFuzzer: the bytes are a whole small scene, with meshes and what a custom shape's
+ * function says, and the options. rt_render refuses it, or makes a picture without NaN,
+ * infinity or negative values. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -58,7 +58,7 @@ static float length(void)
     return x * scale;
 }
 
-/* A sphere as a shape of one's own. */
+/* A sphere as a custom shape. */
 static bool hit_inner(const void *data, const rt_ray *ray, float t_max, rt_hit *hit)
 {
     const rt_sphere *s = (const rt_sphere *)data;
@@ -120,7 +120,7 @@ static void make_scene(void)
         if (i > 0 && below(3) > 0) /* small triangles */
             positions[i] = rt_add(positions[below(i)],
                                   rt_vec(length(), lattice ? 0 : length(), -length()));
-        if (!(rt_length(positions[i]) < 1e15f)) /* which rt_check_scene would refuse */
+        if (!(rt_length(positions[i]) < 1e15f)) /* rt_check_scene would refuse it */
             positions[i] = point();
         if (below(10) == 0)
             positions[i].y = 0;
@@ -147,7 +147,7 @@ static void make_scene(void)
     scene.custom_shapes = custom;
 }
 
-/* A place that has to do with a shape. */
+/* A place related to a shape. */
 static rt_vec3 target(void)
 {
     const int kind = below(5);
