@@ -526,8 +526,7 @@ static inline rt__film rt__film_of(const rt_camera *camera, int width, int heigh
     film.forward = rt_dnormalize(direction);
     if (rt_ddot(film.forward, film.forward) == 0.0)
         return film;
-    /* products of two floats are exact in double, so right is good even where it is
-     * short */
+    /* products of two floats are exact in double, so right is good even if short */
     film.right = rt_dnormalize(rt_dcross(direction, up));
     if (rt_ddot(film.right, film.right) == 0.0) {
         rt_vec3 a, b;
@@ -982,8 +981,7 @@ static inline void rt__pull_back(const rt_ray *ray, rt_hit *hit)
                         n.z == 0.0f ? rt__pull(p.z, o.z) : p.z);
 }
 
-/* The hit of the shape with this number; for a sphere at t, or wherever it is if t is
- * 0. */
+/* The hit of the shape with this number: of a sphere at t, unless t is 0. */
 static inline bool rt__hit_shape(const rt_scene *scene, int number, const rt_ray *ray,
                                  double t, rt_hit *hit)
 {
@@ -1062,8 +1060,7 @@ static inline bool rt_visible(const rt_scene *scene, rt_vec3 point, rt_vec3 norm
 }
 #endif
 
-/* Looks at the clock from time to time, even during a path that takes long: see
- * rt_render. */
+/* Looks at the clock from time to time, even during a long path: see rt_render. */
 typedef struct rt_watch {
     int ticks; /* look when they have gone by */
     void (*look)(struct rt_watch *watch);
@@ -1364,8 +1361,7 @@ static inline float rt__inverse(float u)
     return fabsf(u) > 1e-37f ? 1.0f / u : u < 0.0f ? -1e37f : 1e37f;
 }
 
-/* Cut t_in, t_out down to the part of a ray between two planes of an axis, low and
- * high. */
+/* Cut t_in, t_out down to the part of a ray between two planes of an axis. */
 static inline void rt__trim(float low, float high, float origin, float inverse,
                             float *t_in, float *t_out)
 {
@@ -1502,8 +1498,7 @@ static inline float rt__beyond(float t)
     return t < FLT_MAX - more ? t + more : FLT_MAX;
 }
 
-/* Is this shape, met at t (0: not met), nearer? Of several at the same t the first
- * wins. */
+/* Is a shape that is met at t (0: it is not) nearer? Of equals the first wins. */
 static inline bool rt__is_better(const rt__best *best, int number, float t)
 {
     return t > 0.0f && (t < best->t || (t == best->t && number < best->number));
@@ -2169,10 +2164,10 @@ static inline float rt__hidden(float cosine, float a2)
     return cosine + sqrtf(a2 + (1.0f - a2) * cosine * cosine);
 }
 
-/* A direction from which the gloss sends light to the eye, in which the path goes on:
- * that of a mirror which is one of the facets that the eye sees, each as likely as its
- * share of the view. r1, r2 are uniform in (0, 1). It may point below the surface; then
- * no light comes.
+/* A direction from which the gloss sends light to the eye, for the path to go on in: the
+ * eye's ray, reflected by one of the facets that it sees, each as likely as its share of
+ * the view. r1, r2 are uniform in (0, 1). It may point below the surface; then no light
+ * comes.
  *
  * The surface is stretched by 1/a (see above) along N, so that the facets become a
  * hemisphere; there the wanted normal is halfway between the eye and a uniform direction
@@ -2259,7 +2254,7 @@ static inline float rt__gloss_chance(const rt_brdf *brdf, rt_vec3 normal, rt_vec
 }
 
 /* The part of the light from to_light that is sent to the eye, times <N,to_light>, per
- * steradian and channel; and in *density the one with which rt_sample_brdf chooses
+ * steradian and channel; and in *density the density with which rt_sample_brdf chooses
  * to_light.
  *
  * For metal it is albedo . gloss. For lacquer it is F . gloss, with F of the facets, plus
@@ -3155,22 +3150,21 @@ typedef struct rt_image {
     rt_vec3 *pixels;
     int samples;   /* how many samples every pixel has */
     int done;      /* how many pixels, counted from the first, have one more (after a
-                    cancel, or when time ran out) */
+                      cancel, or when time ran out) */
     uint64_t rays; /* how many rays were traced for it, camera and shadow rays included */
     rt_vec3 *half; /* NULL, or as many vectors again, for the mean of every second sample:
-                      then rt_image_error can estimate the error. Do not add it or take it
-                      away while samples or done are above 0 */
+                      then rt_image_error can estimate the error. Do not add or remove it
+                      while samples or done are above 0 */
     rt_vec3 *rest; /* NULL, or as many vectors again (with half, twice as many), for what
                       is lost when the means are rounded. Means of more than some
-                      thousands of samples need it, see rt_render. Add or take it away
-                      only as half */
+                      thousands of samples need it, see rt_render. Add or remove it only
+                      as half */
     rt_guide *guides; /* NULL, or one for each pixel, for what rt_denoise wants to know:
-                      means over the same samples. Add or take them away only as half */
+                         means over the same samples. Add or remove it only as half */
     int first, count; /* 0, 0: the whole picture. Otherwise a part, and all the memory is
                          for only count pixels of the picture, starting at number first;
                          pixel (x, y) has number y * width + x. Parts that are rendered
-                         separately, on any machines, together have the bits of the
-                         whole */
+                         separately, on any machines, together have the whole's bits */
 } rt_image;
 
 /* Begin a new picture in the same memory. */
@@ -3209,7 +3203,7 @@ typedef struct rt_options {
                            (Without OpenMP it is processor time if the C library is older
                            than C11, or told to be) */
     int lanes;          /* rays that rt_render traces at a time: 1, as the chapters do, or
-                  rt_lane_count(0); 0 means the latter. The picture is the same */
+                           rt_lane_count(0); 0 means the latter. The same picture */
     rt_lens lens;       /* chapter 14; radius 0: a pinhole */
 } rt_options;
 
@@ -3341,7 +3335,7 @@ typedef struct rt_shadow {
     rt_ray ray;        /* from the point, to the light at t = 1 */
     float cosine, dd;  /* <N,L> and d^2 */
     int blocker;       /* the nearest shape in between, at t; -1: none, the light is seen
-                    (unless a lamp with a size hides it: then light_sent is black) */
+                          (or a lamp with a size hides it, and light_sent is black) */
     float t;
     rt_vec3 light_sent; /* what comes from there: rt_lambert, or black */
     float weight;       /* of a lamp, already in light_sent: see rt_mis */
@@ -3623,8 +3617,8 @@ RTDEF const char *rt_status_text(rt_status status)
     case RT_BAD_SIZE:
         return "image: make width and height at least 1, their product at most 2^31 - 1, "
                "done at least 0 and less than the product, and first and count 0 or a "
-               "part of the picture; rt_denoise takes no parts, and a result as large as "
-               "the image";
+               "part of the picture; rt_denoise takes no parts, and needs a result of "
+               "the same size";
     case RT_BAD_SAMPLES:
         return "samples: make options.samples and image.samples at least 0, and their "
                "sum at most 2^31 - 1; rt_denoise needs 2 in the image";
@@ -4357,8 +4351,7 @@ RTDEF void rt_free_bvh(rt_bvh *bvh)
     memset(bvh, 0, sizeof *bvh);
 }
 
-/* Get memory for nodes and rows, no more than they need, with nodes at whole cache
- * lines. */
+/* Get memory for nodes and rows, just enough, with nodes at whole cache lines. */
 static inline bool rt__make_room(rt_bvh *bvh, int nodes, int rows)
 {
     const size_t line = 64;
@@ -4457,8 +4450,7 @@ static inline rt_status rt__build_bvh(const rt_scene *scene, int threads, rt_bvh
     }
     shapes.bvh = bvh;
     const size_t n = (size_t)count + 1, branches = (size_t)rt__most_nodes(count) + 1;
-    if (n > SIZE_MAX / 512) /* meshes may share arrays, so there may be more than fits 32
-                               bits */
+    if (n > SIZE_MAX / 512) /* meshes may share arrays: maybe more than fits 32 bits */
         return RT_NO_MEMORY;
     rt__builder b;
     b.scene = &shapes;
@@ -4747,16 +4739,13 @@ typedef struct rt__task {
 
 /* What the threads share. */
 typedef struct rt__team {
-    rt_watch watch; /* of the calling thread; it comes first, so its address is the
-                       team's */
+    rt_watch watch; /* of the calling thread; first, so its address is the team's */
     const rt__job *job;
     int threads, chunk, chunks;    /* there are so many chunks of so many pixels */
     rt__mutex *writing;            /* each thread locks its own while it writes pixels */
-    double start, asked, interval; /* when progress was last asked, and how long until it
-                                      is asked again */
+    double start, asked, interval; /* progress was last asked then; again after so long */
     double looked;                 /* at the clock */
-    double begun, wanted;          /* how many samples the image had, and how many it
-                                      gets */
+    double begun, wanted;          /* samples that the image had, and is to have */
     int first_sample, first_pixel; /* the first that the image lacks */
     int end;                       /* tasks go up to this sample, not included */
     float part_of_error;
@@ -4780,8 +4769,7 @@ static inline bool rt__next_task(rt__team *team, rt__task *task, uint64_t rays)
     team->job->image->rays += rays;
     if (task->to > task->from)
         team->recorded[task->chunk] = task->to;
-    const bool all = last->chunk == team->chunks - 1; /* are all chunks given out, for
-                                                         these samples? */
+    const bool all = last->chunk == team->chunks - 1; /* all of them given out? */
     const bool over = team->time_over && (last->from > 0 || (all && last->to > 0));
     const bool may_stop = all || last->to - last->from == 1;
     const bool stop = (team->cancelled || over) && may_stop;
@@ -5587,8 +5575,7 @@ typedef struct rt__column {
 /* The shapes of a scene, column by column, by their number in rt_hit; for meshes and
  * custom shapes the boxes around them, see rt__near_others. */
 struct rt__table {
-    bool few;                      /* otherwise all this is empty, and rays ask the
-                                      tree */
+    bool few;                      /* if false, this is empty, and rays ask the tree */
     int spheres, count, all;       /* up to count are spheres and boxes */
     rt__column place, max, albedo; /* place is the center or min */
     float kind[RT__FEW];           /* see rt__hits */
@@ -5600,8 +5587,7 @@ struct rt__table {
     float least_light;             /* of them */
     float eta[RT__FEW], shininess[RT__FEW]; /* part two, of the surfaces */
     rt__column absorption, emission;
-    bool patterns, emits; /* has any of them a pattern, or emission? Set even if not
-                             few */
+    bool patterns, emits; /* has any a pattern, or emission? Even if not few */
 };
 
 #define RT__DOUBT 1.953125e-3f /* 2^-9, see rt__place */
@@ -6512,8 +6498,8 @@ RT__INLINE void rt__enter_boxes(const rt_bvh_node *node, const rt__probe *p, flo
  *
  * With g = O - C, the point nearest to the centre is at t = b = <g,u> / <u,u>. The ray
  * meets the sphere if l = g - b u is not longer than R, between b - h and b + h with h =
- * sqrt(R^2 - l^2) / |u|. Let e = 2^-24. Rounding g, <g,u>, <u,u> and the quotient makes b
- * u wrong by 9 e |g| at most; with the rounding of g itself and of l, l is wrong by less
+ * sqrt(R^2 - l^2) / |u|. Let e = 2^-24. The rounding of g, <g,u>, <u,u> and the quotient
+ * puts b u wrong by 9 e |g| at most; with that of g itself and of l, l is wrong by less
  * than 14 e |g|. And for any k, (R + d)^2 <= (1 + k) R^2 + (1 + 1/k) d^2. So with k =
  * 0.0009
  *
@@ -7091,8 +7077,7 @@ RT__INLINE rt__m rt__unseen(const rt__job *job, const rt__place *p, rt__m lit,
     return shade.sure;
 }
 
-/* rt_lambert, where the light is in front: the part of the light that is sent on, or
- * 0. */
+/* rt_lambert, where the light is in front: the part of it that is sent on, or 0. */
 RT__INLINE rt__f rt__lambert(rt__f toward, rt__f dd, rt__m *counts)
 {
     *counts &= rt__less(rt__all(1e-20f), dd);
@@ -7696,8 +7681,7 @@ RT__NOINLINE rt__f rt__meet_panel(const rt_lamp *lamp, const rt__f3 *origin,
 }
 
 /* Those of the lanes whose ray may meet the ball. In float, |C - O|^2 and all else is
- * wrong by less than 2^-20 of itself, so a ray that misses by more than that does
- * miss. */
+ * wrong by less than 2^-20 of itself: a ray that misses by more does miss. */
 RT__INLINE rt__m rt__may_meet(const rt_lamp *lamp, rt__f3 origin, rt__f3 u, rt__m lanes)
 {
     const float rr = lamp->radius * lamp->radius;
@@ -8055,8 +8039,7 @@ RT__NOINLINE void rt__pass_on(const rt__job *job, rt__packet *p, int bounce,
     const rt__m mirror = f.metal & rt__no(f.shiny | f.glass);
     const rt__m none = {0};
 
-    /* the pair for the way on comes after those for the lamps, which only some lanes
-     * draw */
+    /* the pair for the way on comes after those for the lamps, which only some draw */
     rt__numbers numbers = p->numbers;
     numbers.dimension += (rt__u)rt__iselect(f.aims, pairs, pair - 2u);
     rt__f r1, r2;
