@@ -21,7 +21,7 @@ for what in functions calls; do
     comm -23 "$work/old" "$work/new" >"$work/$what.gone"
 done
 say "New in the demo, written by hand" "$(list <"$work/functions.new")"
-say "No longer in the demo, as rt.h has it" "$(list <"$work/functions.gone")"
+say "No longer in the demo, since rt.h has it" "$(list <"$work/functions.gone")"
 say "Now taken from rt.h" "$(list <"$work/calls.new")"
 was=$(grep "^$(scene "$old"):" "$2") is=$(grep "^$(scene "$new"):" "$2")
 [ "$was" = "$is" ] || say "In the scene" "${is#*: }; before: ${was#*: }"

@@ -249,7 +249,7 @@ static void test_what_is_no_mesh(void **state)
         {"line.obj", SQUARE "f 1 2\nl 1 2\nf 3\n", "there are no triangles in it"},
         {"one-point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n",
          "all its points are the same"},
-        {"tiny.obj", "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n", "are one"},
+        {"tiny.obj", "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n", "are the same"},
         {"far.obj", SQUARE "f 1 2 99999999\n", "out of range"},
         {"before.obj", SQUARE "f -9 -3 -2\n", "out of range"},
         {"zero.obj", SQUARE "f 0 1 2\n", "nvalid face index"},

@@ -1,5 +1,5 @@
-/* Chapter 16, smooth normals: a ball of 80 triangles as it is; with normals that pretend it is
- * round; and so with 5120.
+/* Chapter 16, smooth normals: a ball of 80 triangles as it is; with normals that pretend
+ * it is round; and the same with 5120.
  * Options: 720 240 --samples 16 */
 #include "../../tests/meshes.h"
 #include "../../demos/demo.h"

@@ -1,5 +1,5 @@
-/* Chapter 17: one of each of tests/shapes.h: a plane; a cone; a cylinder; a box that stands askew; an
- * egg; a ring; a ball and a cube: one without, in, with the other.
+/* Chapter 17: one of each of tests/shapes.h: a plane; a cone; a cylinder; a tilted box;
+ * an egg; a ring; a ball and a cube: their difference, intersection and union.
  * Options: 720 360 --samples 64 */
 #include "../../demos/shapes.h"
 #include "../../tests/shapes.h"
@@ -11,7 +11,7 @@ static const cylinder pillar = {{-2.4f, 0, -4}, 1.2f, 2.6f};
 static const ring doughnut = {{6.2f, 0.5f, -4.2f}, 1.5f, 0.5f};
 static const field doughnut_field = {ring_distance, &doughnut};
 
-/* In worlds of their own. */
+/* Those in worlds of their own. */
 static const rt_sphere ball = {{0, 0, 0}, 1, {{0, 0, 0}, false}};
 static const rt_box cube = {
     {-0.8f, -0.8f, -0.8f}, {0.8f, 0.8f, 0.8f}, {{0, 0, 0}, false}};
@@ -48,7 +48,7 @@ static void add(rt_vec3 middle, rt_vec3 half, rt_vec3 albedo, rt_hit_function *h
     s->data = data;
 }
 
-/* An own world, turned so that its z is there, and made so large. */
+/* A world of its own, turned so that its z points there, and scaled to this size. */
 static void place(turned *t, rt_vec3 middle, rt_vec3 z, rt_vec3 size,
                   const rt_custom_shape *shape, rt_vec3 albedo)
 {
