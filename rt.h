@@ -2088,8 +2088,8 @@ static inline rt_vec3 rt_sample_lamp(const rt_lamp *lamp, rt_vec3 point, float r
  * 1, from P; the direction must meet the lamp. 0: never.
  *
  * For a ball it is 1 / (2 pi (1 - cos a)) with sin a = R / d. For a parallelogram of area
- * A, seen at the angle b, it is d^2 / (A |cos b|): the farther away a square metre is, and
- * the flatter it is seen, the less of the sphere of directions it takes up. */
+ * A, seen at the angle b, it is d^2 / (A |cos b|): the farther away a square metre is,
+ * and the flatter it is seen, the less of the sphere of directions it takes up. */
 #ifndef rt_lamp_density
 static inline float rt_lamp_density(const rt_lamp *lamp, rt_vec3 point, rt_vec3 direction)
 {
