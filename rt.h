@@ -2557,8 +2557,8 @@ static inline void rt__hit_corners(const rt__corners *corners, const rt_ray *ray
     hit->v = (float)w.z;
 }
 
-/* The point of the triangle on the ray, if 0 < t < t_max, found as above; hit->part is
- * the triangle's number, and P = (1 - u - v) A + u B + v C.
+/* The point of the triangle on the ray, if 0 < t < t_max: see above. hit->part is the
+ * triangle's number, and P = (1 - u - v) A + u B + v C.
  *
  * Returns false, and leaves *hit alone, on a miss. A triangle without area, one that is
  * seen exactly edge-on, NaN and infinity are misses. */
