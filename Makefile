@@ -20,9 +20,10 @@ FLAGS    = -std=c99 $(CPPFLAGS) $(MACHINE) $(CFLAGS) -ffp-contract=off $(WARNING
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
 OPENMP   = $(eval OPENMP := $(shell .ci/deps openmp '$(CC)'))$(OPENMP)
 STB      = $(shell .ci/deps stb '$(CC)')
-GFX      = $(shell pkg-config --exists SDL2_gfx 2>/dev/null && echo SDL2_gfx)
-SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 $(GFX) 2>/dev/null)) $(GFX:%=-DHAVE_GFX)
-SDL_LIBS = $(shell pkg-config --libs sdl2 $(GFX) 2>/dev/null)
+FONT     = $(shell .ci/deps font '$(CC)')
+TTF      = $(and $(FONT),$(shell pkg-config --exists SDL2_ttf 2>/dev/null && echo SDL2_ttf))
+SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 $(TTF) 2>/dev/null)) $(TTF:%=-DHAVE_TTF '-DFONT="$(FONT)"')
+SDL_LIBS = $(shell pkg-config --libs sdl2 $(TTF) 2>/dev/null)
 # assimp reads meshes from files for demos 16 and 17; they do without, too.
 ASSIMP   = $(shell pkg-config --exists assimp 2>/dev/null && echo -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp 2>/dev/null)))
 LIBS     = $(LDFLAGS) $(SDL_LIBS) $(shell pkg-config --libs assimp 2>/dev/null)
@@ -45,7 +46,7 @@ help: ## this list
 	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
-deps: ## install what is missing: SDL2, SDL2_gfx, stb, cmocka, cJSON, OpenMP
+deps: ## install what is missing: SDL2, SDL2_ttf, a font, stb, cmocka, cJSON, OpenMP
 	@.ci/deps install '$(CC)'
 
 deps-web: ## likewise for "make web": clang, lld and wasi-libc, node, npm, chromium
@@ -72,7 +73,7 @@ $(BUILD)/program.a: $(PROGRAM)
 	ar -rcs $@ $^
 
 $(PROGRAM): $(BUILD)/%.o: demos/%.c $(HEADERS)
-	@.ci/deps found '$(CC)' sdl2 stb openmp SDL2_gfx
+	@.ci/deps found '$(CC)' sdl2 stb openmp SDL2_ttf font
 	@mkdir -p $(BUILD)
 	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) $(ASSIMP) -c -o $@ $<
 
