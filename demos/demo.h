@@ -40,10 +40,11 @@ typedef struct demo_lines {
     int most, count;
 } demo_lines;
 
-/* The name of a thing in the room, to stand in the plan. */
+/* The name of a thing in the room, to stand in the plan: on it, or, if it is small, below it. */
 typedef struct demo_label {
     rt_vec3 at;
     const char *name;
+    bool below;
 } demo_label;
 
 /* The linear colour seen through the point (x, y) of the film. */

@@ -677,15 +677,16 @@ static int live_labels(int stage, bool side, demo_label labels[DEMO_LABELS])
     const int shapes = scene->sphere_count + scene->box_count + scene->mesh_count +
                        scene->custom_shape_count;
     int count = 0;
-    labels[count++] = (demo_label){room_camera.position, "camera"};
+    labels[count++] = (demo_label){room_camera.position, "camera", true};
     if (live_has_lamp(stage))
-        labels[count++] = (demo_label){room_light.position, "lamp"};
+        labels[count++] = (demo_label){room_light.position, "lamp", true};
     for (int shape = 0; shape < shapes && count < DEMO_LABELS; shape++) {
         const bool across = side ? shape == ROOM_LEFT || shape == ROOM_RIGHT
                                  : shape == ROOM_CEILING || shape == ROOM_FLOOR;
         if (!across) /* such a wall is the whole plan */
-            labels[count++] = (demo_label){live_label_place(scene, shape),
-                                           shape_name(scene, shape) + strlen("the ")};
+            labels[count++] =
+                (demo_label){live_label_place(scene, shape),
+                             shape_name(scene, shape) + strlen("the "), false};
     }
     return count;
 }
@@ -780,8 +781,8 @@ static void live_tell_vertex(const explanation *e, int n, demo_text *out)
     text_add(out, "\t0");
     print_place(out, e->scene, v);
     if (v->shape >= 0)
-        text_add(out, "\t0%.4g\t%d%.2f %.2f %.2f\t", (double)v->hit.t, LINE_NORMAL,
-                 (double)N.x, (double)N.y, (double)N.z);
+        text_add(out, "\t0%.2f\t0%.2f %.2f %.2f\t", (double)v->hit.t, (double)N.x,
+                 (double)N.y, (double)N.z);
     else
         text_add(out, "\t0\t0\t");
     live_tell_lamp(e, n, out);
@@ -796,7 +797,8 @@ static void live_tell_vertex(const explanation *e, int n, demo_text *out)
 static void live_tell(const explanation *e, demo_text *out)
 {
     const int more = e->path.vertex_count - e->path.max_vertices;
-    text_add(out, "0\t0meets\t0on it\t0t\t0N\t0lamp\t0goes on\t0throughput\t0adds\n");
+    text_add(out, "0\t0meets\t0on it\t0t\t%dN\t0lamp\t0goes on\t0throughput\t0adds\n",
+             LINE_NORMAL);
     for (int n = 0; n < e->path.vertex_count && n < e->path.max_vertices; n++)
         live_tell_vertex(e, n, out);
     if (more > 0)

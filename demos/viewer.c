@@ -914,8 +914,9 @@ void viewer_draw_plan(const viewer *v, viewer_plan *plan, demo_text *table)
     for (int i = 0; i < names && good; i++) {
         float q[2];
         flatten(v->side, labels[i].at, q);
-        plan->labels[plan->label_count++] =
-            (viewer_label){at[0] + scale * q[0], at[1] + scale * q[1], labels[i].name};
+        const float down = labels[i].below ? plan->letter : 0.0f;
+        plan->labels[plan->label_count++] = (viewer_label){
+            at[0] + scale * q[0], at[1] + scale * q[1] + down, labels[i].name};
         place(plan);
     }
 }

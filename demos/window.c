@@ -480,7 +480,7 @@ static void draw_help(const window *w)
 {
     int window_width = 0, window_height = 0, keys = 0, what = 0, letter;
     SDL_GetRendererOutputSize(w->renderer, &window_width, &window_height);
-    for (letter = window_height / 32; letter > SMALLEST - 2; letter--) {
+    for (letter = window_height / 25; letter > SMALLEST - 2; letter--) {
         keys = what = 0;
         for (int i = 0; i < HELP_LINES; i++) {
             const int k = text_width(letter, window_help[i].keys);
