@@ -55,6 +55,7 @@ struct window {
     int width, height;             /* so large */
     bool said_help;                /* in the terminal */
     bool repeated;                 /* the key that is held, once more */
+    int digit;                     /* by the place of the key that went down last, or 0 */
     short keys[SDL_NUM_SCANCODES]; /* what the keys that are down meant then */
     double due;                    /* when it may be drawn again */
     double polled, slowest;
@@ -568,13 +569,11 @@ bool window_is_due(const window *w)
 static const char typed_keys[] = "0123456789+-=,.[]";
 
 /* What other keys mean, 0: nothing. A letter is what the key types, wherever it is; where that is
- * no Latin letter, the key counts by its place. So do the digits' keys where they type something
- * else, as on a French keyboard. */
+ * no Latin letter, the key counts by its place. */
 static int key_of(SDL_Keysym key)
 {
     const SDL_Scancode place = key.scancode;
     const bool other = key.sym > 127 && !(key.sym & SDLK_SCANCODE_MASK);
-    const bool row = place >= SDL_SCANCODE_1 && place <= SDL_SCANCODE_0;
     switch (key.sym) {
     case SDLK_LEFT: return KEY_LEFT;
     case SDLK_RIGHT: return KEY_RIGHT;
@@ -589,8 +588,6 @@ static int key_of(SDL_Keysym key)
         return (int)key.sym;
     if (other && place >= SDL_SCANCODE_A && place <= SDL_SCANCODE_Z)
         return 'a' + (int)(place - SDL_SCANCODE_A);
-    if (row && !(key.mod & KMOD_SHIFT) && (other || !strchr(typed_keys, (int)key.sym)))
-        return '0' + (int)(place - SDL_SCANCODE_1 + 1) % 10;
     return 0;
 }
 
@@ -607,9 +604,13 @@ static void handle_key(window *w, viewer *v, int key)
 static void handle_key_down(window *w, viewer *v, const SDL_KeyboardEvent *e)
 {
     const SDL_Keysym key = e->keysym;
+    const bool row = key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_0;
     w->repeated = e->repeat != 0;
+    w->digit = 0;
     if (key.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI | KMOD_MODE))
         return;
+    if (row && !(key.mod & KMOD_SHIFT))
+        w->digit = '0' + (int)(key.scancode - SDL_SCANCODE_1 + 1) % 10;
     w->keys[key.scancode] = (short)key_of(key);
     if (w->keys[key.scancode] != 0)
         handle_key(w, v, w->keys[key.scancode]);
@@ -622,15 +623,19 @@ static void handle_key_up(window *w, viewer *v, SDL_Scancode place)
     w->keys[place] = 0;
 }
 
-/* AltGr, which types signs, is Ctrl and Alt on some systems. */
+/* The key that types a digit elsewhere counts as that if it types nothing that means something:
+ * on a French keyboard digits need Shift. AltGr, which types signs, is Ctrl and Alt on some
+ * systems. */
 static void handle_text(window *w, viewer *v, const char *text)
 {
     const int held = SDL_GetModState();
     const bool alt_gr = (held & (KMOD_RALT | KMOD_MODE)) != 0;
     if ((held & KMOD_GUI) != 0 || ((held & (KMOD_CTRL | KMOD_LALT)) != 0 && !alt_gr))
         return;
-    if (text[0] != '\0' && text[1] == '\0' && strchr(typed_keys, text[0]))
-        handle_key(w, v, text[0]);
+    const bool typed = text[0] != '\0' && text[1] == '\0' && strchr(typed_keys, text[0]);
+    const int key = typed ? text[0] : w->digit;
+    if (key != 0)
+        handle_key(w, v, key);
 }
 
 /* A place in the window as one in the picture. */
