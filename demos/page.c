@@ -166,6 +166,22 @@ int EXPORT(page_inspects)(void)
     return v.inspect;
 }
 
+/* Which sample. */
+int EXPORT(page_x)(void)
+{
+    return v.x;
+}
+
+int EXPORT(page_y)(void)
+{
+    return v.y;
+}
+
+int EXPORT(page_sample)(void)
+{
+    return v.sample;
+}
+
 /* For sliders and the like; keys do the same. */
 void EXPORT(page_set_stage)(int stage)
 {

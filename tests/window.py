@@ -392,12 +392,12 @@ def test_the_magnifying_glass_tells_the_truth(display):
     window = Window(display, "demo05", "320", "240", "--samples", "4")
     window.wait("4 samples")
     window.key("z")
-    window.move(200, 150)
-    match = window.wait(r"200,150: ([0-9.e-]+) \S+ \S+ -> (\d+) \d+ \d+")
+    window.move(250, 200)
+    match = window.wait(r"250,200: ([0-9.e-]+) \S+ \S+ -> (\d+) \d+ \d+")
     linear, byte = float(match.group(1)), int(match.group(2))
     assert byte == int(255 * min(linear, 1) ** (1 / 2.2) + 0.5), match.group(0)
     _, _, rows = window.screen()
-    assert rows[150][600] == byte, (rows[150][600], byte)
+    assert rows[200][750] == byte, (rows[200][750], byte)
     window.end()
 
 
