@@ -914,9 +914,13 @@ void viewer_draw_plan(const viewer *v, viewer_plan *plan, demo_text *table)
     for (int i = 0; i < names && good; i++) {
         float q[2];
         flatten(v->side, labels[i].at, q);
+        const float x = at[0] + scale * q[0], y = at[1] + scale * q[1];
         const float down = labels[i].below ? plan->letter : 0.0f;
-        plan->labels[plan->label_count++] = (viewer_label){
-            at[0] + scale * q[0], at[1] + scale * q[1] + down, labels[i].name};
+        viewer_label *label = &plan->labels[plan->label_count++];
+        *label = (viewer_label){x, y + down, labels[i].name};
         place(plan);
+        const viewer_line tie = {x, y, label->x, label->y, 1.0f, LINE_ROOM};
+        if (fabsf(label->y - y) > 2.0f * plan->letter && plan->line_count < VIEWER_LINES)
+            plan->lines[plan->line_count++] = tie; /* it had to go away from its thing */
     }
 }

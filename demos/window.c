@@ -368,12 +368,23 @@ static int measure(table *t)
     return sum;
 }
 
-/* The letters as large as the width allows; where the smallest are too large, fewer columns. */
-static void arrange(table *t, int letter, int width)
+/* So many rows of the table fit below the line that says which sample it is. */
+static int rows_that_fit(const window *w, const table *t)
 {
+    const int height = line_height(t->letter);
+    return (4 * w->table.h - 5 * height) / (4 * height);
+}
+
+/* The letters as large as the place allows: smaller for more rows, but not much; and for all
+ * columns. Where the smallest are too large, there are fewer columns. */
+static void arrange(const window *w, table *t)
+{
+    const int width = w->table.w, least = w->letter * 3 / 4;
     static const int spare[] = {COLUMN_PLACE,      COLUMN_NORMAL,  COLUMN_T,
                                 COLUMN_THROUGHPUT, COLUMN_GOES_ON, COLUMN_LAMP};
-    t->letter = letter;
+    t->letter = w->letter;
+    while (rows_that_fit(w, t) < t->rows && t->letter > least && t->letter > SMALLEST)
+        t->letter--;
     int sum = measure(t);
     while (sum > width && t->letter > SMALLEST) {
         t->letter--;
@@ -417,8 +428,8 @@ static void draw_table(const window *w, char *text)
     const char *sample = next_part(&text, '\n');
     fill(w, w->table, 250, 255);
     cut_up(&t, text);
-    arrange(&t, w->letter, w->table.w);
-    const int height = line_height(t.letter), room = w->table.h / height - 1;
+    arrange(w, &t);
+    const int height = line_height(t.letter), room = rows_that_fit(w, &t);
     const int rows = t.rows <= room ? t.rows : room - 1;
     int y = w->table.y + height * 3 / 4;
     draw_text(w, t.letter, w->table.x + t.letter, y, sample, DARK);
@@ -495,7 +506,7 @@ static void draw_help(const window *w)
     }
     const int height = line_height(letter);
     const SDL_Rect box = {0, 0, keys + what + 3 * letter, HELP_LINES * height + letter};
-    fill(w, box, 0, 200);
+    fill(w, box, 0, 230);
     for (int i = 0; i < HELP_LINES; i++) {
         const int y = letter / 2 + i * height + height / 2;
         draw_text(w, letter, letter, y, window_help[i].keys, LIGHT);
