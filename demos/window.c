@@ -50,6 +50,7 @@ struct window {
     SDL_Rect plan, table;          /* beside it and below it, while a path is shown */
     float density;                 /* such pixels for one of the mouse's */
     int letter;                    /* the size of text, in pixels of the screen */
+    bool text;                     /* is there a font? */
     unsigned char *bytes;          /* of the picture, 3 for each pixel */
     bool wide;                     /* with room for the plan; before that it was */
     int width, height;             /* so large */
@@ -78,12 +79,13 @@ enum { DARK = 40, LIGHT = 240, SMALLEST = 8 }; /* greys; the smallest letters */
 
 static TTF_Font *font; /* NULL: none */
 
-/* NULL, or why there is none. */
-static const char *open_font(void)
+/* False: there is none, and why. */
+static bool open_font(const char **why)
 {
     if (TTF_Init() == 0)
         font = TTF_OpenFont(FONT, SMALLEST);
-    return font ? NULL : TTF_GetError();
+    *why = font ? NULL : TTF_GetError();
+    return font != NULL;
 }
 
 static void close_font(void)
@@ -93,11 +95,6 @@ static void close_font(void)
     font = NULL;
     if (TTF_WasInit())
         TTF_Quit();
-}
-
-static bool have_font(void)
-{
-    return font != NULL;
 }
 
 /* So large are letters from now on. (To be told the same again, SDL2_ttf would forget them.) */
@@ -139,18 +136,14 @@ static void draw_text(const window *w, int letter, int x, int y, const char *wor
 
 #else
 
-static const char *open_font(void)
+static bool open_font(const char **why)
 {
-    return NULL; /* make has said so */
+    *why = NULL; /* make has said it */
+    return false;
 }
 
 static void close_font(void)
 {
-}
-
-static bool have_font(void)
-{
-    return false;
 }
 
 static int text_width(int letter, const char *words)
@@ -241,7 +234,7 @@ static void lay_out(window *w, viewer *v)
     w->density = points > 0 ? (float)width / (float)points : 1.0f;
     w->letter = height / 40 > SMALLEST ? height / 40 : SMALLEST + 1;
     const int left = v->inspect && width > 1 ? width / 2 : width;
-    const int top = v->inspect && have_font() ? height * 5 / 7 : height;
+    const int top = v->inspect && w->text ? height * 5 / 7 : height;
     const double zoom = fmin((double)left / v->view.width, (double)top / v->view.height);
     w->area.w = (int)fmax(1.0, zoom * v->view.width);
     w->area.h = (int)fmax(1.0, zoom * v->view.height);
@@ -264,7 +257,7 @@ static void widen(window *w, const viewer *v)
     } else if (SDL_GetDisplayUsableBounds(0, &desk) == 0) {
         SDL_GetWindowSize(w->window, &w->width, &w->height);
         const int width = 2 * w->width;
-        const int height = have_font() ? (7 * w->height + 4) / 5 : w->height;
+        const int height = w->text ? (7 * w->height + 4) / 5 : w->height;
         SDL_SetWindowSize(w->window, width < desk.w ? width : desk.w,
                           height < desk.h ? height : desk.h);
         SDL_SetWindowPosition(w->window, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED);
@@ -279,7 +272,7 @@ static int draw_legend(const window *w, const viewer *v)
     const int letter = w->letter, height = line_height(letter);
     const int kinds = v->stage > VIEWER_INDIRECT ? LINE_KINDS : LINE_GLOSS;
     int x = w->plan.x + letter / 2, y = height;
-    for (int kind = LINE_CAMERA; kind < kinds && have_font(); kind++) {
+    for (int kind = LINE_CAMERA; kind < kinds && w->text; kind++) {
         const char *name = viewer_kind_name((demo_kind)kind);
         const int width = text_width(letter, name) + 2 * letter;
         if (x + width > w->plan.x + w->plan.w) {
@@ -311,7 +304,7 @@ static void draw_plan(window *w, const viewer *v, demo_text *table)
         const int width = text_width(w->letter, l->name), height = w->letter;
         const int x = w->plan.x + (int)l->x - width / 2, y = w->plan.y + (int)l->y;
         const SDL_Rect behind = {x - 2, y - height / 2, width + 4, height};
-        if (have_font())
+        if (w->text)
             fill(w, behind, 250, 190);
         draw_text(w, w->letter, x, y, l->name, DARK);
     }
@@ -454,7 +447,7 @@ static void draw_inspector(window *w, const viewer *v)
     fill(w, (SDL_Rect){x - 8, y, 17, 1}, 255, 255);
     fill(w, (SDL_Rect){x, y - 8, 1, 17}, 255, 255);
     draw_plan(w, v, &told);
-    if (have_font())
+    if (w->text)
         draw_table(w, words);
 }
 
@@ -553,7 +546,7 @@ void window_draw(window *w, viewer *v)
         viewer_say_pixel(v, shown, w->bytes, &pixel);
         draw_glass(w, v, shown, numbers);
     }
-    if (v->help && have_font())
+    if (v->help && w->text)
         draw_help(w);
     set_title(w, v, shown, numbers);
     SDL_RenderPresent(w->renderer);
@@ -606,7 +599,7 @@ static void handle_key(window *w, viewer *v, int key)
 {
     w->due = 0.0;
     viewer_key(v, key, w->repeated);
-    for (int i = 0; i < HELP_LINES && v->help && !w->said_help && !have_font(); i++)
+    for (int i = 0; i < HELP_LINES && v->help && !w->said_help && !w->text; i++)
         printf("%-18s %s\n", window_help[i].keys, window_help[i].what);
     fflush(stdout);
     w->said_help = v->help;
@@ -791,7 +784,7 @@ window *window_open(const viewer *v, const char **why)
     }
     if (w->texture && w->bytes) {
         SDL_StartTextInput();
-        *why = open_font();
+        w->text = open_font(why);
         return w;
     }
     static char said[200]; /* SDL forgets it when it ends */
