@@ -20,9 +20,10 @@ FLAGS    = -std=c99 $(CPPFLAGS) $(MACHINE) $(CFLAGS) -ffp-contract=off $(WARNING
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
 OPENMP   = $(eval OPENMP := $(shell .ci/deps openmp '$(CC)'))$(OPENMP)
 STB      = $(shell .ci/deps stb '$(CC)')
-GFX      = $(shell pkg-config --exists SDL2_gfx 2>/dev/null && echo SDL2_gfx)
-SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 $(GFX) 2>/dev/null)) $(GFX:%=-DHAVE_GFX)
-SDL_LIBS = $(shell pkg-config --libs sdl2 $(GFX) 2>/dev/null)
+FONT     = $(shell .ci/deps font '$(CC)')
+TTF      = $(and $(FONT),$(shell pkg-config --exists SDL2_ttf 2>/dev/null && echo SDL2_ttf))
+SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 $(TTF) 2>/dev/null)) $(TTF:%=-DHAVE_TTF '-DFONT="$(FONT)"')
+SDL_LIBS = $(shell pkg-config --libs sdl2 $(TTF) 2>/dev/null)
 # assimp reads meshes from files for demos 16 and 17; they also work without it.
 ASSIMP   = $(shell pkg-config --exists assimp 2>/dev/null && echo -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp 2>/dev/null)))
 LIBS     = $(LDFLAGS) $(SDL_LIBS) $(shell pkg-config --libs assimp 2>/dev/null)
@@ -45,13 +46,13 @@ help: ## this list
 	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
-deps: ## install what is missing: SDL2, SDL2_gfx, stb, cmocka, cJSON, OpenMP
+deps: ## install what is missing: SDL2, SDL2_ttf, a font, stb, cmocka, cJSON, OpenMP
 	@.ci/deps install '$(CC)'
 
 deps-web: ## the same for "make web": clang, lld and wasi-libc, node, npm, chromium
 	@.ci/deps web
 
-deps-docs: ## likewise for the site and the PDF of "make docs": pandoc, chromium, pdfinfo, a maths font
+deps-docs: ## the same for the site and the PDF of "make docs": pandoc, chromium, pdfinfo, a maths font
 	@.ci/deps docs
 
 ifneq (,$(filter deps deps-web deps-docs,$(MAKECMDGOALS)))
@@ -75,7 +76,7 @@ $(BUILD)/program.a: $(PROGRAM)
 	ar -rcs $@ $^
 
 $(PROGRAM): $(BUILD)/%.o: demos/%.c $(HEADERS)
-	@.ci/deps found '$(CC)' sdl2 stb openmp SDL2_gfx
+	@.ci/deps found '$(CC)' sdl2 stb openmp SDL2_ttf font
 	@mkdir -p $(BUILD)
 	$(CC) $(FLAGS) $(OPENMP) $(SDL) $(STB) $(ASSIMP) -c -o $@ $<
 
@@ -87,7 +88,7 @@ test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)
 	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) $(USERS)
 
 # Most tests are linked with rt.o. These look inside rt.h, or give it memory of their own.
-WHOLE    = $(filter 12% 13% 14% 15% 17% 18% 19%,$*)
+WHOLE    = $(filter 12% 13% 14% 15% 17% 18% 19% 28%,$*)
 
 $(BUILD)/rt.o: rt.h
 	@.ci/deps found '$(CC)' openmp

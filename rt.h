@@ -3508,14 +3508,21 @@ static inline bool rt__occluded_noted(const rt_scene *scene, const rt_ray *ray,
     return blocked;
 }
 
+/* The point that was noted last; NULL: there was no room for it, or it was met by an
+ * rt_intersect of yours, which tells nobody. */
+static inline rt_vertex *rt__noted_last(const rt_path *path)
+{
+    const int n = path->vertex_count - 1;
+    return n >= 0 && n < path->max_vertices ? &path->vertices[n] : NULL;
+}
+
 /* What rt_radiance_mis tells. */
 static inline void rt__note_vertex(const rt_scene *scene, rt_vec3 throughput, int lamp,
                                    rt_vec3 light, float weight)
 {
-    const rt_path *path = scene->bvh->path;
-    if (path->vertex_count > path->max_vertices)
+    rt_vertex *v = rt__noted_last(scene->bvh->path);
+    if (!v)
         return;
-    rt_vertex *v = &path->vertices[path->vertex_count - 1];
     v->throughput = throughput;
     v->light = light;
     v->lamp = lamp;
@@ -3537,13 +3544,14 @@ static inline void rt__note_light(const rt_scene *scene, int light, int lamp, rt
                                   rt_vec3 sent, float weight)
 {
     const rt_path *path = scene->bvh->path;
-    if (path->vertex_count > path->max_vertices)
+    const int n = path->shadow_count - 1;
+    rt_vertex *v = rt__noted_last(path);
+    if (!v)
         return;
-    rt_vertex *v = &path->vertices[path->vertex_count - 1];
     v->light = rt_add(v->light, sent);
-    if (path->shadow_count > path->max_shadows)
-        return;
-    rt_shadow *here = &path->shadows[path->shadow_count - 1];
+    if (n < 0 || n >= path->max_shadows || path->shadows[n].vertex != v - path->vertices)
+        return; /* an rt_visible of yours may not have asked */
+    rt_shadow *here = &path->shadows[n];
     here->light = light;
     here->lamp = lamp;
     here->light_sent = sent;
@@ -3554,10 +3562,9 @@ static inline void rt__note_light(const rt_scene *scene, int light, int lamp, rt
 static inline void rt__note_event(const rt_scene *scene, rt_event event, bool inside,
                                   float density)
 {
-    const rt_path *path = scene->bvh->path;
-    if (path->vertex_count > path->max_vertices)
+    rt_vertex *v = rt__noted_last(scene->bvh->path);
+    if (!v)
         return;
-    rt_vertex *v = &path->vertices[path->vertex_count - 1];
     v->event = event;
     v->inside = inside;
     v->density = density;

@@ -22,7 +22,7 @@ void command_help(const demo *d)
            "  --seed N      another seed gives other noise (default 0)\n"
            "  --out FILE    where to write, .png or .pfm (default build/%s.png,\n"
            "                or %s.png where there is no folder build)\n"
-           "  --explain X,Y only print what happens in this pixel (from chapter 7)\n"
+           "  --explain X,Y only print what happens in this pixel\n"
            "  --denoise     take out the noise at the end: chapter 10 (from chapter 7);\n"
            "                from chapter 10 the default; --no-denoise turns it off\n"
            "  --exposure EV brighter by EV stops, each twice the light; below 0 darker\n"
@@ -250,12 +250,9 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
             fprintf(stderr, " or %d\n", most);
         return false;
     }
-    if (s->explain && (!has_paths(d) || s->x >= s->width || s->y >= s->height)) {
-        if (!has_paths(d))
-            fprintf(stderr, "%s: --explain: chapter 7 and later can do that\n", d->name);
-        else
-            fprintf(stderr, "%s: --explain: %ld,%ld is not in a picture of %lld x %lld\n",
-                    d->name, s->x, s->y, s->width, s->height);
+    if (s->explain && (s->x >= s->width || s->y >= s->height)) {
+        fprintf(stderr, "%s: --explain: %ld,%ld is not in a picture of %lld x %lld\n",
+                d->name, s->x, s->y, s->width, s->height);
         return false;
     }
     if (s->denoise && !has_paths(d))

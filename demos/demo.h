@@ -35,8 +35,50 @@ typedef struct demo_line {
     float weight; /* 0 to 1: how much of the light from here arrives */
 } demo_line;
 
+typedef struct demo_lines {
+    demo_line *lines; /* memory for so many: */
+    int most, count;
+} demo_lines;
+
+/* The name of a thing in the room, to stand in the plan: on it, or, if it is small, below it. */
+typedef struct demo_label {
+    rt_vec3 at;
+    const char *name;
+    bool below;
+} demo_label;
+
+/* The linear colour seen through the point (x, y) of the film. */
+typedef rt_vec3 demo_pixel(const demo_view *view, float x, float y, rt_rng *rng);
+
+/* One sample of a picture, to be explained. */
+typedef struct demo_sample {
+    int stage;
+    const demo_view *view;
+    const rt_options *options;
+    const rt_image *image;
+    int x, y, number;
+    demo_pixel *own; /* the demo's function, if the picture is made by it; else NULL */
+} demo_sample;
+
 /* What the viewer can do with the scene of a demo; live.h gives it to the demos. */
-enum { DEMO_STATE = 256 }; /* bytes, at most, for save */
+enum {
+    DEMO_STATE = 256, /* bytes, at most, for save */
+    DEMO_LABELS = 16
+};
+
+/* The columns of the table that tells a path. */
+enum {
+    COLUMN_POINT,
+    COLUMN_MEETS,
+    COLUMN_PLACE, /* on a mesh */
+    COLUMN_T,
+    COLUMN_NORMAL,
+    COLUMN_LAMP,
+    COLUMN_GOES_ON,
+    COLUMN_THROUGHPUT,
+    COLUMN_ADDS,
+    DEMO_COLUMNS
+};
 
 typedef struct demo_live {
     /* Render one of its pictures, see viewer_chapter; and only the direct light in it,
@@ -66,15 +108,16 @@ typedef struct demo_live {
     void (*say)(int stage, int thing, demo_text *out);
     /* C code that brings this view back. */
     void (*print)(demo_text *out);
-    /* Lines: the things in the room; and the path of one sample of the pixel (x, y), which
-     * is told in words, too, in short and as --explain does (NULL: not wanted). */
-    int (*outlines)(int stage, const demo_view *view, demo_line *lines, int most);
-    int (*path)(int stage, const demo_view *view, const rt_options *options,
-                const rt_image *image, int x, int y, int sample, demo_line *lines,
-                int most, demo_text *summary, demo_text *words);
-    /* The paths of all samples of the pixel, and their mean, to stdout. */
-    rt_status (*explain)(int stage, const rt_options *options, const rt_image *image,
-                         int x, int y);
+    /* The things in the room, for a plan of it from above or from the side: lines, and their
+     * names, of which it returns how many there are. */
+    void (*outlines)(int stage, const demo_view *view, demo_lines *lines);
+    int (*labels)(int stage, bool side, demo_label labels[DEMO_LABELS]);
+    /* The path of a sample, and the sample's value: lines for the plan; a table, a row for each
+     * point, after one with the names of the columns; and in words, as --explain has it. (NULL:
+     * not wanted.) A row ends with a new line, a cell with a tab, unless it is the last. A cell
+     * begins with the digit of the demo_kind whose colour belongs to it, or with 0. */
+    rt_status (*path)(const demo_sample *sample, demo_lines *lines, demo_text *table,
+                      demo_text *words, rt_vec3 *value);
     /* Save all that moves to memory, and load it; the number of bytes, at most
      * DEMO_STATE. */
     size_t (*save)(void *to);
@@ -85,8 +128,7 @@ typedef struct demo {
     const char *name;  /* "demo05": the picture goes to build/demo05.png */
     const char *title; /* for the window and --help */
 
-    /* The linear colour seen through the point (x, y) of the film; on several threads. */
-    rt_vec3 (*pixel)(const demo_view *view, float x, float y, rt_rng *rng);
+    demo_pixel *pixel; /* is called on several threads */
 
     /* Or, in its place: add samples to the image, as rt_render does. */
     rt_status (*render)(const rt_options *options, rt_image *image);

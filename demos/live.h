@@ -19,7 +19,8 @@ static const rt_scene *live_scene(int stage)
     return scenes[stage];
 }
 
-/* The stages of part two, and the first whose paths rt_trace_pixel follows as they are. */
+/* The stages of indirect light and of part two: their samples are rt_radiance's and
+ * rt_radiance_mis's, and those before have live_pixel's. */
 enum {
     STAGE_INDIRECT = 7,
     STAGE_GLASS,
@@ -49,27 +50,67 @@ static void live_prepare(int stage); /* below: where things are */
 typedef struct live_context {
     int stage;
     const demo_view *view;
+    const rt_scene *scene; /* the stage's; path, unless NULL, hears what is asked of it */
+    rt_path *path;
 } live_context;
 
-/* Chapters 1 to 6, one after the other: each stops one question later. */
+static live_context live_stage(int stage, const demo_view *view)
+{
+    return (live_context){stage, view, live_scene(stage), NULL};
+}
+
+/* Tell, if somebody listens, that the last point of the path adds this light. */
+static rt_vec3 live_add(const live_context *c, rt_vec3 light)
+{
+    rt_path *path = c->path;
+    if (path && path->vertex_count > 0 && path->vertex_count <= path->max_vertices)
+        path->vertices[path->vertex_count - 1].light = light;
+    return light;
+}
+
+/* Chapters 2 and 3: the lamp's light, whatever is in the way. */
+static rt_vec3 live_unshadowed(const live_context *c, const rt_hit *hit)
+{
+    const rt_vec3 to_light = rt_sub(room_light.position, hit->point);
+    const rt_vec3 sent =
+        rt_lambert(hit->material->albedo, hit->normal, to_light, room_light.intensity);
+    const float dd = rt_dot(to_light, to_light), along = rt_dot(hit->normal, to_light);
+    rt_path *path = c->path;
+    if (path && path->vertex_count == 1 && along > 0)
+        path->shadows[path->shadow_count++] = (rt_shadow){.ray = {hit->point, to_light},
+                                                          .lamp = -1,
+                                                          .cosine = along / sqrtf(dd),
+                                                          .dd = dd,
+                                                          .blocker = -1,
+                                                          .light_sent = sent};
+    return live_add(c, sent);
+}
+
+/* The sample of every stage. Those of chapters 1 to 6 stop one question later each. */
 static rt_vec3 live_pixel(const void *context, float x, float y, rt_rng *rng)
 {
     const live_context *c = context;
-    const rt_scene *scene = live_scene(c->stage);
     rt_ray ray = rt_camera_ray(&room_camera, c->view->width, c->view->height, x, y);
+    if (c->stage == STAGE_SKY) {
+        const float r1 = rt_random(rng);
+        const float r2 = rt_random(rng);
+        ray = rt_lens_ray(&room_camera, &room_lens, &ray, r1, r2);
+    }
+    if (c->stage == STAGE_INDIRECT)
+        return rt_radiance(c->scene, &ray, c->view->bounces, rng);
+    if (c->stage > STAGE_INDIRECT)
+        return rt_radiance_mis(c->scene, &ray, c->view->bounces, rng);
     for (int bounce = 0; bounce <= c->view->bounces; bounce++) {
         rt_hit hit;
         rng->rays++;
-        if (!rt_intersect(scene, &ray, &hit))
+        if (!rt_intersect(c->scene, &ray, &hit))
             break;
-        if (c->stage == 1)
-            return hit.material->albedo;
-        if (c->stage <= 3)
-            return rt_lambert(hit.material->albedo, hit.normal,
-                              rt_sub(room_light.position, hit.point),
-                              room_light.intensity);
+        if (c->stage < STAGE_LIGHT)
+            return live_add(c, hit.material->albedo);
+        if (c->stage < STAGE_SHADOWS)
+            return live_unshadowed(c, &hit);
         if (!hit.material->mirror)
-            return rt_direct(scene, &hit, rng);
+            return live_add(c, rt_direct(c->scene, &hit, rng));
         const rt_vec3 direction = rt_reflect(ray.direction, hit.normal);
         ray.origin = rt_leave(hit.point, hit.normal, direction);
         ray.direction = direction;
@@ -80,7 +121,7 @@ static rt_vec3 live_pixel(const void *context, float x, float y, rt_rng *rng)
 static rt_status live_render(int stage, const demo_view *view, const rt_options *options,
                              rt_image *image)
 {
-    const live_context context = {stage, view};
+    const live_context context = live_stage(stage, view);
     const rt_options o = live_options(stage, options);
     live_prepare(stage);
     if (stage >= STAGE_INDIRECT)
@@ -108,7 +149,7 @@ static rt_status live_draft(int stage, const demo_view *view, const rt_options *
     const rt_status status = rt_render(live_scene(stage), &room_camera, &direct, image);
     demo_view mirrors = *view;
     mirrors.bounces = view->bounces > 0 ? view->bounces : 5;
-    const live_context context = {stage == 7 ? 6 : stage, &mirrors};
+    const live_context context = live_stage(stage == 7 ? 6 : stage, &mirrors);
     const int width = image->width, count = width * image->height;
     const float dim = room_dim_light.intensity.x / room_light.intensity.x;
     if (status != RT_OK || stage < 6 || stage >= STAGE_GLASS)
@@ -296,6 +337,12 @@ static int live_pick_mesh(int stage, const rt_ray *ray, float t_max)
     return thing;
 }
 
+/* A bulb that can be taken; the sun is too far away. */
+static bool live_has_lamp(int stage)
+{
+    return stage >= STAGE_LIGHT && stage != STAGE_SKY;
+}
+
 /* The thing under the point (x, y) of the film; 0: nothing that can be moved. */
 static int live_pick(int stage, const demo_view *view, float x, float y)
 {
@@ -310,7 +357,7 @@ static int live_pick(int stage, const demo_view *view, float x, float y)
     scene.mesh_count = scene.custom_shape_count = 0;
     const bool found = rt_intersect(&scene, &ray, &hit);
     const int other = live_pick_mesh(stage, &ray, hit.t);
-    if (stage > 1 && stage != STAGE_SKY && t > 0.0f && beside < size && hit.t > t)
+    if (live_has_lamp(stage) && t > 0.0f && beside < size && hit.t > t)
         return LAMP;
     if (other != 0 || !found)
         return other;
@@ -421,7 +468,7 @@ static bool live_has_number(int stage, int thing)
 {
     const live_number *n = &live_numbers[thing];
     return n->name && stage >= n->first && stage <= n->last &&
-           !(thing == LAMP && stage == STAGE_SKY); /* there it is the sun */
+           (thing != LAMP || live_has_lamp(stage));
 }
 
 static bool live_tune(int stage, int thing, float notches)
@@ -537,19 +584,14 @@ static void live_print(demo_text *out)
  * The ray inspector: lines in the room, and words
  * ------------------------------------------------------------------------------------- */
 
-typedef struct live_lines {
-    demo_line *lines;
-    int most, count;
-} live_lines;
-
-static void live_line(live_lines *l, demo_kind kind, float weight, rt_vec3 from,
+static void live_line(demo_lines *l, demo_kind kind, float weight, rt_vec3 from,
                       rt_vec3 to)
 {
     if (l->count < l->most)
         l->lines[l->count++] = (demo_line){from, to, kind, weight};
 }
 
-static void live_box(live_lines *l, rt_vec3 a, rt_vec3 b)
+static void live_box(demo_lines *l, rt_vec3 a, rt_vec3 b)
 {
     for (int i = 0; i < 8; i++)
         for (int k = 0; k < 3; k++)
@@ -563,7 +605,7 @@ static void live_box(live_lines *l, rt_vec3 a, rt_vec3 b)
 }
 
 /* Two circles: one is round from above, the other from the side. */
-static void live_ball(live_lines *l, rt_vec3 O, float R)
+static void live_ball(demo_lines *l, rt_vec3 O, float R)
 {
     enum { PARTS = 32 };
     for (int i = 0; i < PARTS; i++) {
@@ -578,7 +620,7 @@ static void live_ball(live_lines *l, rt_vec3 O, float R)
 }
 
 /* A box around the mesh, and one around the pedestal. */
-static void live_outline_mesh(live_lines *l, int which)
+static void live_outline_mesh(demo_lines *l, int which)
 {
     rt_vec3 low = {FLT_MAX, FLT_MAX, FLT_MAX}, high = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
     const rt_mesh *mesh = &room_meshes[which];
@@ -593,30 +635,60 @@ static void live_outline_mesh(live_lines *l, int which)
         live_box(l, room_pedestal.min, room_pedestal.max);
 }
 
-static int live_outlines(int stage, const demo_view *view, demo_line *lines, int most)
+static void live_outlines(int stage, const demo_view *view, demo_lines *l)
 {
-    live_lines l = {lines, most, 0};
-    if (stage >= 2)
-        live_box(&l, rt_vec(-50, -20, -60), rt_vec(50, 40, 60));
-    live_ball(&l, room_spheres[0].center, room_spheres[0].radius);
+    if (stage >= STAGE_LIGHT)
+        live_box(l, rt_vec(-50, -20, -60), rt_vec(50, 40, 60));
+    live_ball(l, room_spheres[0].center, room_spheres[0].radius);
     if (stage >= 3 && stage < STAGE_TRIANGLES)
-        live_box(&l, room_cube.min, room_cube.max);
+        live_box(l, room_cube.min, room_cube.max);
     if (stage >= STAGE_TRIANGLES)
-        live_outline_mesh(&l, stage - STAGE_TRIANGLES);
+        live_outline_mesh(l, stage - STAGE_TRIANGLES);
     if (stage >= 6)
-        live_ball(&l, room_spheres[ROOM_MIRROR].center, room_spheres[ROOM_MIRROR].radius);
+        live_ball(l, room_spheres[ROOM_MIRROR].center, room_spheres[ROOM_MIRROR].radius);
     if (stage >= STAGE_GLASS)
-        live_ball(&l, room_spheres[ROOM_GLASS].center, room_spheres[ROOM_GLASS].radius);
-    if (stage >= 2 && stage != STAGE_SKY)
-        live_ball(&l, room_light.position,
-                  stage >= STAGE_LAMPS ? room_lamp.radius : 1.0f);
+        live_ball(l, room_spheres[ROOM_GLASS].center, room_spheres[ROOM_GLASS].radius);
+    if (live_has_lamp(stage))
+        live_ball(l, room_light.position, stage >= STAGE_LAMPS ? room_lamp.radius : 1.0f);
     for (int i = 0; i < 4; i++) { /* the camera: rays through the corners of the film */
         const rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height,
                                          i == 0 || i == 3 ? 0.0f : (float)view->width,
                                          i < 2 ? 0.0f : (float)view->height);
-        live_line(&l, LINE_ROOM, 1, ray.origin, rt_at(&ray, 15.0f));
+        live_line(l, LINE_ROOM, 1, ray.origin, rt_at(&ray, 15.0f));
     }
-    return l.count;
+}
+
+/* Where the name of a shape stands. Of the walls it is a place in the open, near the camera. */
+static rt_vec3 live_label_place(const rt_scene *scene, int shape)
+{
+    static const rt_vec3 walls[] = {
+        {-50, 10, 48}, {0, 40, 20}, {50, 10, 48}, {0, -20, 20}, {-20, 10, -60}};
+    const int other = shape - scene->sphere_count;
+    return shape >= 1 && shape <= 5                       ? walls[shape - 1]
+           : other < 0                                    ? scene->spheres[shape].center
+           : other < scene->box_count                     ? live_middle(CUBE)
+           : other < scene->box_count + scene->mesh_count ? live_middle(MESH)
+                                                          : live_middle(PEDESTAL);
+}
+
+static int live_labels(int stage, bool side, demo_label labels[DEMO_LABELS])
+{
+    const rt_scene *scene = live_scene(stage);
+    const int shapes = scene->sphere_count + scene->box_count + scene->mesh_count +
+                       scene->custom_shape_count;
+    int count = 0;
+    labels[count++] = (demo_label){room_camera.position, "camera", true};
+    if (live_has_lamp(stage))
+        labels[count++] = (demo_label){room_light.position, "lamp", true};
+    for (int shape = 0; shape < shapes && count < DEMO_LABELS; shape++) {
+        const bool across = side ? shape == ROOM_LEFT || shape == ROOM_RIGHT
+                                 : shape == ROOM_CEILING || shape == ROOM_FLOOR;
+        if (!across) /* such a wall is the whole plan */
+            labels[count++] =
+                (demo_label){live_label_place(scene, shape),
+                             shape_name(scene, shape) + strlen("the "), false};
+    }
+    return count;
 }
 
 /* How a ray was sent on, as a kind of line. */
@@ -631,22 +703,25 @@ static demo_kind live_kind(rt_event event)
     }
 }
 
-/* Where the ray meets its lamp; the sun is too far away for the plan. */
-static rt_vec3 live_lamp_met(const rt_scene *scene, const rt_vertex *v)
+/* So far out is nothing of the room: there a line has left every plan. */
+enum { LIVE_FAR = 1000 };
+
+/* Where the ray of this point ends. */
+static rt_vec3 live_end(const rt_scene *scene, const rt_vertex *v)
 {
+    const float far_t = LIVE_FAR / rt_length(v->ray.direction);
+    if (v->lamp < 0)
+        return v->shape < 0 ? rt_at(&v->ray, far_t) : v->hit.point;
     const float t = rt_meet_lamp(&scene->lamps[v->lamp], &v->ray, FLT_MAX);
-    return rt_at(&v->ray, live_clamp(t, 0, 300));
+    return rt_at(&v->ray, live_clamp(t, 0, far_t));
 }
 
-/* What rt_trace_pixel wrote down, up to where the stage stops, as lines. */
-static void live_draw_path(const rt_scene *scene, const rt_path *path, live_lines *l)
+static void live_draw_path(const explanation *e, demo_lines *l)
 {
-    for (int n = 0; n < path->vertex_count; n++) {
+    const rt_path *path = &e->path;
+    for (int n = 0; n < path->vertex_count && n < path->max_vertices; n++) {
         const rt_vertex *v = &path->vertices[n];
-        const rt_vec3 P = v->lamp >= 0 ? live_lamp_met(scene, v)
-                          : v->shape < 0
-                              ? rt_at(&v->ray, 60.0f / rt_length(v->ray.direction))
-                              : v->hit.point;
+        const rt_vec3 P = live_end(e->scene, v);
         const float weight = (v->throughput.x + v->throughput.y + v->throughput.z) / 3.0f;
         live_line(l, n == 0 ? LINE_CAMERA : live_kind(path->vertices[n - 1].event),
                   weight, v->ray.origin, P);
@@ -656,9 +731,8 @@ static void live_draw_path(const rt_scene *scene, const rt_path *path, live_line
             const rt_shadow *s = &path->shadows[i];
             if (s->vertex != n)
                 continue;
-            const float most =
-                300.0f / rt_length(s->ray.direction); /* not up to the sun */
-            const float t = s->blocker >= 0 ? s->t : most < 1.0f ? most : 1.0f;
+            const float far_t = LIVE_FAR / rt_length(s->ray.direction); /* as the sun */
+            const float t = s->blocker >= 0 ? s->t : far_t < 1.0f ? far_t : 1.0f;
             live_line(l, LINE_LIT, weight, s->ray.origin, rt_at(&s->ray, t));
             if (s->blocker >= 0)
                 live_line(l, LINE_BLOCKED, 1, rt_at(&s->ray, t), rt_at(&s->ray, 1.0f));
@@ -666,90 +740,154 @@ static void live_draw_path(const rt_scene *scene, const rt_path *path, live_line
     }
 }
 
-/* Two lines for each vertex, to stand beside the plan. */
-static void live_summary(const rt_scene *scene, const rt_path *path, demo_text *out)
+/* What came of the lamp. */
+static void live_tell_lamp(const explanation *e, int n, demo_text *out)
 {
-    for (int n = 0; n < path->vertex_count; n++) {
-        const rt_vertex *v = &path->vertices[n];
-        const rt_vec3 T = v->throughput, adds = rt_mul(T, v->light), N = v->hit.normal;
-        const bool goes_on = n + 1 < path->vertex_count && scene->surfaces;
-        text_add(out, "%d %s", n,
-                 v->lamp >= 0 ? "the lamp" : shape_name(scene, v->shape));
-        if (v->lamp >= 0 && n > 0)
-            text_add(out, " by chance, weight %.2f", (double)v->weight);
-        if (v->shape >= 0) {
-            print_place(out, scene, v);
-            text_add(out, ", t %.4g, N (%.2f %.2f %.2f)", (double)v->hit.t, (double)N.x,
-                     (double)N.y, (double)N.z);
-        }
-        for (int i = 0; i < path->shadow_count; i++)
-            if (path->shadows[i].vertex == n) {
-                const rt_shadow *s = &path->shadows[i];
-                text_add(out, ", lamp %s%s", s->blocker < 0 ? "seen" : "behind ",
-                         s->blocker < 0 ? "" : shape_name(scene, s->blocker));
-                if (s->lamp >= 0 && s->blocker < 0)
-                    text_add(out, ", weight %.2f", (double)s->weight);
-            }
-        if (goes_on)
-            text_add(out, "; %s", event_name(v));
-        text_add(out, "\n  throughput %.3f %.3f %.3f, adds %.4f %.4f %.4f\n", (double)T.x,
-                 (double)T.y, (double)T.z, (double)adds.x, (double)adds.y,
-                 (double)adds.z);
+    const rt_vertex *v = &e->path.vertices[n];
+    bool asked = false;
+    for (int i = 0; i < e->path.shadow_count && i < e->path.max_shadows; i++) {
+        const rt_shadow *s = &e->path.shadows[i];
+        if (s->vertex != n)
+            continue;
+        const bool seen = s->blocker < 0, shadows = e->stage >= STAGE_SHADOWS;
+        text_add(out, "%d%s%s", seen ? LINE_LIT : LINE_BLOCKED,
+                 !shadows ? "no shadows yet"
+                 : seen   ? "seen"
+                          : "behind ",
+                 seen ? "" : shape_name(e->scene, s->blocker));
+        if (s->lamp >= 0 && seen)
+            text_add(out, ", weight %.2f", (double)s->weight);
+        asked = true;
     }
-    text_add(out, "= %.4f %.4f %.4f\n", (double)path->value.x, (double)path->value.y,
-             (double)path->value.z);
+    if (v->lamp >= 0 && n > 0)
+        text_add(out, "0by chance, weight %.2f", (double)v->weight);
+    else if (!asked && v->shape >= 0 && v->event != RT_EVENT_MIRROR &&
+             v->event != RT_EVENT_REFLECTED && v->event != RT_EVENT_REFRACTED &&
+             lights_are_behind(e, v))
+        text_add(out, "0behind the surface");
+    else if (!asked)
+        text_add(out, "0");
 }
 
-static int live_path(int stage, const demo_view *view, const rt_options *options,
-                     const rt_image *image, int x, int y, int sample, demo_line *lines,
-                     int most, demo_text *summary, demo_text *words)
+/* One row. */
+static void live_tell_vertex(const explanation *e, int n, demo_text *out)
 {
-    live_lines l = {lines, most, 0};
-    rt_path path = empty_path();
-    const rt_scene *scene = live_scene(stage);
-    rt_options traced = live_options(stage, options);
-    traced.bounces = stage < 6 ? 0 : view->bounces;
-    live_prepare(stage);
-    if (rt_trace_pixel(scene, &room_camera, &traced, image, x, y, sample, &path) != RT_OK)
-        return 0;
-    if (stage < 4)
-        path.shadow_count = 0;
-    for (int n = 0; stage == 6 && n < path.vertex_count; n++)
-        if (path.vertices[n].shape < 0 || !path.vertices[n].hit.material->mirror) {
-            path.vertex_count = n + 1; /* there chapter 6 stops */
-            path.value = rt_mul(path.vertices[n].throughput, path.vertices[n].light);
-        }
-    live_draw_path(scene, &path, &l);
-    if (summary)
-        live_summary(scene, &path, summary);
+    const rt_vertex *v = &e->path.vertices[n];
+    const rt_vec3 N = v->hit.normal, T = v->throughput, adds = rt_mul(T, v->light);
+    const demo_kind came =
+        n == 0 ? LINE_CAMERA : live_kind(e->path.vertices[n - 1].event);
+    text_add(out, "%d%d\t0%s", came, n,
+             v->lamp >= 0 ? "the lamp" : shape_name(e->scene, v->shape));
+    text_add(out, "\t0");
+    print_place(out, e->scene, v);
+    if (v->shape >= 0)
+        text_add(out, "\t0%.2f\t0%.2f %.2f %.2f\t", (double)v->hit.t, (double)N.x,
+                 (double)N.y, (double)N.z);
+    else
+        text_add(out, "\t0\t0\t");
+    live_tell_lamp(e, n, out);
+    if (n + 1 < e->path.vertex_count)
+        text_add(out, "\t%d%s", live_kind(v->event), event_name(v));
+    else
+        text_add(out, "\t0");
+    text_add(out, "\t0%.3f %.3f %.3f\t0%.4f %.4f %.4f\n", (double)T.x, (double)T.y,
+             (double)T.z, (double)adds.x, (double)adds.y, (double)adds.z);
+}
+
+static void live_tell(const explanation *e, demo_text *out)
+{
+    const int more = e->path.vertex_count - e->path.max_vertices;
+    text_add(out, "0\t0meets\t0on it\t0t\t%dN\t0lamp\t0goes on\t0throughput\t0adds\n",
+             LINE_NORMAL);
+    for (int n = 0; n < e->path.vertex_count && n < e->path.max_vertices; n++)
+        live_tell_vertex(e, n, out);
+    if (more > 0)
+        text_add(out, "0\t0and %d more", more);
+    else if (!rt_is_zero(e->rest))
+        text_add(out, "0\t0a function of your own");
+    if (more > 0 || !rt_is_zero(e->rest))
+        text_add(out, "\t0\t0\t0\t0\t0\t0\t0%.4f %.4f %.4f\n", (double)e->rest.x,
+                 (double)e->rest.y, (double)e->rest.z);
+}
+
+/* A sample that is made once more, by the loop that makes the pictures. */
+typedef struct live_again {
+    const live_context *stage;
+    demo_pixel *own; /* NULL: it is the stage's */
+    rt_vec3 *value;
+} live_again;
+
+static rt_vec3 live_catch(const void *context, float x, float y, rt_rng *rng)
+{
+    const live_again *again = context;
+    *again->value = again->own ? again->own(again->stage->view, x, y, rng)
+                               : live_pixel(again->stage, x, y, rng);
+    return *again->value;
+}
+
+static rt_status live_do_again(const live_context *stage, demo_pixel *own,
+                               const demo_sample *s, rt_vec3 *value)
+{
+    const live_again again = {stage, own, value};
+    const int width = s->image->width;
+    rt_vec3 mean[2] = {{0, 0, 0}, {0, 0, 0}};
+    rt_image one = {.width = width, .height = s->image->height, .pixels = mean};
+    one.half = s->image->half ? mean + 1 : NULL; /* then it takes other numbers */
+    one.samples = s->number;
+    one.first = s->y * width + s->x;
+    one.count = 1;
+    const rt_options options = {.samples = 1,
+                                .threads = 1,
+                                .seed = s->options->seed,
+                                .sampler = s->options->sampler};
+    return rt_render_pixels(live_catch, &again, &options, &one);
+}
+
+/* live_pixel again, while the scene tells the path what it is asked: by this file's functions,
+ * so by those of the reader's that take the place of rt.h's. */
+static rt_status live_listen(const demo_sample *s, rt_path *path)
+{
+    live_context stage = live_stage(s->stage, s->view);
+    rt_scene watched = *stage.scene;
+    rt_bvh watch;
+    memset(&watch, 0, sizeof watch);
+    watch.path = path;
+    watched.bvh = &watch;
+    path->scene = stage.scene;
+    path->bounces = s->view->bounces;
+    path->told = s->stage > STAGE_INDIRECT;
+    path->vertex_count = path->shadow_count = 0;
+    stage.scene = &watched;
+    stage.path = path;
+    return live_do_again(&stage, NULL, s, &path->value);
+}
+
+/* The sample that is shown, and nothing like it: rt_render's, live_pixel's, or the demo's own. The
+ * last cannot be listened to. It should do what live_pixel does. If its value is another, the
+ * rest says so. */
+static rt_status live_path(const demo_sample *s, demo_lines *lines, demo_text *table,
+                           demo_text *words, rt_vec3 *value)
+{
+    explanation e = {live_scene(s->stage), s->stage, empty_path(), {0, 0, 0}};
+    const rt_options options = live_options(s->stage, s->options);
+    const live_context stage = live_stage(s->stage, s->view);
+    live_prepare(s->stage);
+    rt_status status = s->stage < STAGE_INDIRECT || s->own
+                           ? live_listen(s, &e.path)
+                           : rt_trace_pixel(e.scene, &room_camera, &options, s->image,
+                                            s->x, s->y, s->number, &e.path);
+    if (status == RT_OK && s->own)
+        status = live_do_again(&stage, s->own, s, &e.path.value);
+    if (status != RT_OK)
+        return status;
+    find_rest(&e);
+    if (lines)
+        live_draw_path(&e, lines);
+    if (table)
+        live_tell(&e, table);
     if (words)
-        print_path(words, scene, &path, sample);
-    return l.count;
-}
-
-static rt_status live_explain(int stage, const rt_options *options, const rt_image *image,
-                              int x, int y)
-{
-    static char words[MOST_WORDS];
-    const rt_options traced = live_options(stage, options);
-    rt_path path = empty_path();
-    rt_vec3 mean = {0, 0, 0};
-    demo_text out;
-    live_prepare(stage);
-    for (int k = 0; k < options->samples; k++) {
-        const rt_status status = rt_trace_pixel(live_scene(stage), &room_camera, &traced,
-                                                image, x, y, k, &path);
-        if (status != RT_OK)
-            return status;
-        out = text_in(words, sizeof words);
-        print_path(&out, live_scene(stage), &path, k);
-        printf("%s", words);
-        mean = rt_add(mean, rt_scale(rt_sub(path.value, mean), 1.0f / (float)(k + 1)));
-    }
-    out = text_in(words, sizeof words);
-    print_vec(&out, "mean: ", mean, "");
-    printf("%s, as bytes %d, %d, %d\n", words, live_encode(stage, mean.x),
-           live_encode(stage, mean.y), live_encode(stage, mean.z));
+        print_sample(words, &e, s->number);
+    *value = e.path.value;
     return RT_OK;
 }
 
@@ -769,8 +907,8 @@ static const demo_live live_room = {
     .say = live_say,
     .print = live_print,
     .outlines = live_outlines,
+    .labels = live_labels,
     .path = live_path,
-    .explain = live_explain,
     .save = live_save,
     .load = live_load,
 };

@@ -84,9 +84,10 @@ static void attend(run *r)
         return;
     progress_end(&r->p);
     if (tells) {
+        rt_vec3 value;
         text_add(&out, "%s: pixel %d,%d of %d x %d, %s\n", v->d->name, v->x, v->y,
                  v->view.width, v->view.height, viewer_bounces(v));
-        viewer_explain(v, &out);
+        viewer_explain(v, &out, &value);
     }
     if (saves) {
         v->save = false;
@@ -218,6 +219,30 @@ static rt_status explain_denoising(run *r, const rt_options *options)
     return RT_OK;
 }
 
+/* Its samples, and their mean. */
+static rt_status explain_samples(const run *r, int samples)
+{
+    static char words[WORDS];
+    rt_vec3 mean = {0, 0, 0};
+    viewer v = r->v;
+    v.denoise = false; /* that comes later */
+    v.x = (int)r->s.x;
+    v.y = (int)r->s.y;
+    for (v.sample = 0; v.sample < samples; v.sample++) {
+        demo_text out = text_in(words, sizeof words);
+        rt_vec3 value;
+        const rt_status status = viewer_explain(&v, &out, &value);
+        if (status != RT_OK)
+            return status;
+        printf("%s", words);
+        mean = rt_add(mean, rt_scale(rt_sub(value, mean), 1.0f / (float)(v.sample + 1)));
+    }
+    printf("mean: (%.6g, %.6g, %.6g), as bytes %d, %d, %d\n", (double)mean.x,
+           (double)mean.y, (double)mean.z, viewer_byte(&v, v.stage, mean.x),
+           viewer_byte(&v, v.stage, mean.y), viewer_byte(&v, v.stage, mean.z));
+    return RT_OK;
+}
+
 static int explain(run *r)
 {
     const demo *d = r->v.d;
@@ -228,8 +253,7 @@ static int explain(run *r)
         printf("%s: pixel %ld,%ld of %lld x %lld, %d sample%s, %s\n", d->name, r->s.x,
                r->s.y, r->s.width, r->s.height, options.samples,
                viewer_plural(options.samples), viewer_bounces(&r->v));
-    rt_status status =
-        d->live->explain(d->stage, &options, &r->v.image, (int)r->s.x, (int)r->s.y);
+    rt_status status = explain_samples(r, options.samples);
     if (status == RT_OK && r->s.denoise)
         status = explain_denoising(r, &options);
     return status == RT_OK || failed(r, status) ? DONE : FAILED;
@@ -258,6 +282,8 @@ static void open_window(run *r)
     if (r->win) {
         open_run = r;
         atexit(display_lost);
+        if (why && !r->s.quiet)
+            printf("%s: no text in the window (%s)\n", r->v.d->name, why);
     } else if (!r->s.quiet) {
         printf("%s: no window (%s)\n", r->v.d->name, why);
     }

@@ -23,7 +23,7 @@ typedef struct part {
 static viewer v;
 static part *parts[2];       /* of the picture; of the other one */
 static unsigned char *bytes; /* of what was encoded last, 4 a pixel */
-static viewer_line lines[VIEWER_LINES];
+static viewer_plan plan;
 static char words[MOST_WORDS_SHOWN];
 
 double demo_seconds(void)
@@ -164,6 +164,22 @@ int EXPORT(page_denoises)(void)
 int EXPORT(page_inspects)(void)
 {
     return v.inspect;
+}
+
+/* Which sample. */
+int EXPORT(page_x)(void)
+{
+    return v.x;
+}
+
+int EXPORT(page_y)(void)
+{
+    return v.y;
+}
+
+int EXPORT(page_sample)(void)
+{
+    return v.sample;
 }
 
 /* For sliders and the like; keys do the same. */
@@ -459,21 +475,45 @@ const char *EXPORT(page_say_progress)(double error, int finished, double finishe
     return words;
 }
 
-/* The path of a sample of the pixel, from above or from the side, and its words; page_lines() has as
- * many lines as it returns. */
-int EXPORT(page_plan)(float width, float height, int side)
+/* The path of a sample of the pixel, from above or from the side: it returns the number of lines
+ * that page_lines() has; page_label() has names; page_table() tells the path. */
+int EXPORT(page_plan)(float width, float height, float letter, int side)
 {
-    demo_text summary = text_in(words, sizeof words);
+    demo_text table = text_in(words, sizeof words);
     v.side = side != 0;
-    return viewer_plan(&v, width, height, lines, &summary);
+    plan.width = width;
+    plan.height = height;
+    plan.letter = letter;
+    viewer_draw_plan(&v, &plan, &table);
+    return plan.line_count;
 }
 
 const viewer_line *EXPORT(page_lines)(void)
 {
-    return lines;
+    return plan.lines;
 }
 
-const char *EXPORT(page_words)(void)
+int EXPORT(page_labels)(void)
+{
+    return plan.label_count;
+}
+
+const char *EXPORT(page_label)(int number)
+{
+    return plan.labels[number].name;
+}
+
+float EXPORT(page_label_x)(int number)
+{
+    return plan.labels[number].x;
+}
+
+float EXPORT(page_label_y)(int number)
+{
+    return plan.labels[number].y;
+}
+
+const char *EXPORT(page_table)(void)
 {
     return words;
 }
@@ -482,7 +522,8 @@ const char *EXPORT(page_words)(void)
 const char *EXPORT(page_explain)(void)
 {
     demo_text out = text_in(words, sizeof words);
-    viewer_explain(&v, &out);
+    rt_vec3 value;
+    viewer_explain(&v, &out, &value);
     return words;
 }
 

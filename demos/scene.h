@@ -77,7 +77,10 @@ static const rt_scene scene_indirect = {.spheres = room_spheres,
  * in its place the mesh and then the pedestal. */
 enum {
     ROOM_BALL = 0,
-    ROOM_FLOOR = 4,
+    ROOM_LEFT,
+    ROOM_CEILING,
+    ROOM_RIGHT,
+    ROOM_FLOOR,
     ROOM_MIRROR = 6,
     ROOM_GLASS,
     ROOM_CUBE,

@@ -271,13 +271,19 @@ const rt_image *viewer_shown(viewer *v)
     return image;
 }
 
+unsigned char viewer_byte(const viewer *v, int stage, float value)
+{
+    return v->gamma > 0.0f    ? rt_encode(value, (double)v->gamma)
+           : is_own(v, stage) ? v->d->encode(value)
+                              : v->d->live->encode(stage, value);
+}
+
 void viewer_encode(const viewer *v, bool other, const rt_image *image, int channels,
                    unsigned char *bytes)
 {
     const rt_vec3 *pixels = image->pixels;
     const int count = (int)pixel_count(image), stage = stage_of(v, other);
-    const float gamma = v->gamma, brighter = exp2f(v->exposure);
-    const bool own = is_own(v, stage);
+    const float brighter = exp2f(v->exposure);
 #ifdef _OPENMP
     const int threads = rt_thread_count(v->options.threads);
 #pragma omp parallel for num_threads(threads)
@@ -287,9 +293,7 @@ void viewer_encode(const viewer *v, bool other, const rt_image *image, int chann
         const float rgb[3] = {light.x, light.y, light.z};
         unsigned char *to = bytes + (size_t)i * (size_t)channels;
         for (int k = 0; k < 3; k++)
-            to[k] = gamma > 0.0f ? rt_encode(rgb[k], (double)gamma)
-                    : own        ? v->d->encode(rgb[k])
-                                 : v->d->live->encode(stage, rgb[k]);
+            to[k] = viewer_byte(v, stage, rgb[k]);
         if (channels == 4)
             to[3] = 255;
     }
@@ -537,8 +541,10 @@ void viewer_key(viewer *v, int key, bool repeated)
         v->options.sampler = v->options.sampler == RT_RANDOM ? RT_SOBOL : RT_RANDOM;
         change(v);
         break;
-    case ']': more_bounces(v, 1); break;
-    case '[': more_bounces(v, -1); break;
+    case ']': /* no key of a French keyboard, so also: */
+    case 'm': more_bounces(v, 1); break;
+    case '[':
+    case 'n': more_bounces(v, -1); break;
     case 'r': reset(v); break;
     default: break;
     }
@@ -622,16 +628,28 @@ void viewer_draft_took(viewer *v, double seconds)
     v->drafts_took += seconds;
 }
 
-rt_status viewer_add_samples(const viewer *v, bool other, const rt_options *options,
-                             rt_image *image)
+/* Is the picture, or the other one, made by the demo's own function? */
+static bool is_made_by_demo(const viewer *v, bool other)
 {
-    const int stage = stage_of(v, other);
+    return is_own(v, stage_of(v, other)) &&
+           !(other && v->comparison == BY_RT_H && v->d->live);
+}
+
+static rt_options options_for(const viewer *v, bool other, const rt_options *options)
+{
     rt_options o = *options;
     if (other && v->comparison == OTHER_NUMBERS)
         o.sampler = o.sampler == RT_RANDOM ? RT_SOBOL : RT_RANDOM;
-    if (!is_own(v, stage) || (other && v->comparison == BY_RT_H && v->d->live))
-        return v->d->live->render(stage, &v->view, &o, image);
-    return render_own(v, &v->view, &o, image);
+    return o;
+}
+
+rt_status viewer_add_samples(const viewer *v, bool other, const rt_options *options,
+                             rt_image *image)
+{
+    const rt_options o = options_for(v, other, options);
+    return is_made_by_demo(v, other)
+               ? render_own(v, &v->view, &o, image)
+               : v->d->live->render(stage_of(v, other), &v->view, &o, image);
 }
 
 rt_status viewer_refine(viewer *v, bool (*progress)(void *user, float part), void *user)
@@ -770,56 +788,139 @@ static void flatten(bool side, rt_vec3 p, float q[2])
     q[1] = side ? -p.y : p.z;
 }
 
-/* The lines of the path of the pixel that is inspected, in the room, and its words, either way. */
-static int trace(const viewer *v, demo_line *lines, int most, demo_text *summary,
-                 demo_text *words)
+/* The sample that is inspected, of the picture that is shown. */
+static rt_status trace(const viewer *v, demo_lines *lines, demo_text *table,
+                       demo_text *words, rt_vec3 *value)
 {
-    return v->d->live->path(v->stage, &v->view, &v->options, &v->image, v->x, v->y,
-                            v->sample, lines, most, summary, words);
+    const rt_options options = options_for(v, v->hold, &v->options);
+    const demo_sample sample = {.stage = stage_of(v, v->hold),
+                                .view = &v->view,
+                                .options = &options,
+                                .image = viewer_shows_other(v) ? &v->other : &v->image,
+                                .x = v->x,
+                                .y = v->y,
+                                .number = v->sample,
+                                .own = is_made_by_demo(v, v->hold) ? v->d->pixel : NULL};
+    return v->d->live->path(&sample, lines, table, words, value);
 }
 
-void viewer_explain(const viewer *v, demo_text *out)
+rt_status viewer_explain(const viewer *v, demo_text *out, rt_vec3 *value)
 {
-    trace(v, NULL, 0, NULL, out);
+    return trace(v, NULL, NULL, out, value);
 }
 
-int viewer_plan(const viewer *v, float width, float height,
-                viewer_line lines[VIEWER_LINES], demo_text *summary)
+/* The scale and the place at which these lines fill the plan. False: they have no size. */
+static bool fit(const viewer *v, const demo_lines *room, const viewer_plan *plan,
+                float *scale, float at[2])
 {
-    static demo_line room[VIEWER_LINES];
-    const int outlines = v->d->live->outlines(v->stage, &v->view, room, VIEWER_LINES);
-    text_add(summary, "pixel %d,%d, sample %d, from %s (v)\n", v->x, v->y, v->sample,
-             v->side ? "the side" : "above");
-    const int count =
-        outlines + trace(v, room + outlines, VIEWER_LINES - outlines, summary, NULL);
     float low[2] = {FLT_MAX, FLT_MAX}, high[2] = {-FLT_MAX, -FLT_MAX};
-    for (int i = 0; i < 2 * outlines; i++) {
+    for (int i = 0; i < 2 * room->count; i++) {
         float q[2];
-        flatten(v->side, i % 2 ? room[i / 2].to : room[i / 2].from, q);
+        flatten(v->side, i % 2 ? room->lines[i / 2].to : room->lines[i / 2].from, q);
         for (int k = 0; k < 2; k++) {
             low[k] = fminf(low[k], q[k]);
             high[k] = fmaxf(high[k], q[k]);
         }
     }
-    const float scale =
-        fminf(0.94f * width / (high[0] - low[0]), 0.94f * height / (high[1] - low[1]));
-    if (!(scale > 0.0f && scale < 1e6f))
-        return 0;
-    const float at[2] = {0.5f * (width - scale * (low[0] + high[0])),
-                         0.5f * (height - scale * (low[1] + high[1]))};
-    for (int i = 0; i < count; i++) {
-        const demo_line *l = &room[i];
+    *scale = 0.94f *
+             fminf(plan->width / (high[0] - low[0]), plan->height / (high[1] - low[1]));
+    at[0] = 0.5f * (plan->width - *scale * (low[0] + high[0]));
+    at[1] = 0.5f * (plan->height - *scale * (low[1] + high[1]));
+    return *scale > 0.0f && *scale < 1e6f;
+}
+
+/* Cut the line off where it leaves the plan. False: nothing of it is inside. */
+static bool cut(viewer_line *l, const viewer_plan *plan)
+{
+    const float from[2] = {l->x0, l->y0}, by[2] = {l->x1 - l->x0, l->y1 - l->y0};
+    const float size[2] = {plan->width, plan->height};
+    float in = 0.0f, out = 1.0f; /* the part of it that is inside */
+    for (int k = 0; k < 2; k++) {
+        if (by[k] == 0.0f && !(from[k] >= 0.0f && from[k] <= size[k]))
+            return false;
+        if (by[k] == 0.0f)
+            continue;
+        const float a = -from[k] / by[k], b = (size[k] - from[k]) / by[k];
+        in = fmaxf(in, fminf(a, b));
+        out = fminf(out, fmaxf(a, b));
+    }
+    l->x0 = from[0] + in * by[0];
+    l->y0 = from[1] + in * by[1];
+    l->x1 = from[0] + out * by[0];
+    l->y1 = from[1] + out * by[1];
+    return in <= out;
+}
+
+static bool overlap(const viewer_label *a, const viewer_label *b, float letter)
+{
+    const float width = 0.3f * (float)(strlen(a->name) + strlen(b->name) + 1);
+    return fabsf(a->x - b->x) < width * letter && fabsf(a->y - b->y) < 1.2f * letter;
+}
+
+/* Put the last label where it is whole, and on none of the others if that can be had nearby. */
+static void place(viewer_plan *plan)
+{
+    viewer_label *label = &plan->labels[plan->label_count - 1];
+    const float half = 0.32f * plan->letter * (float)strlen(label->name);
+    const float y = fmaxf(plan->letter, fminf(plan->height - plan->letter, label->y));
+    label->x = fmaxf(half, fminf(plan->width - half, label->x));
+    for (int i = 0; i < 9; i++) { /* there, one line down, one up, two down ... */
+        const float rows = (float)((i + 1) / 2 * (i % 2 ? 1 : -1));
+        bool free = true;
+        label->y = y + 1.2f * plan->letter * rows;
+        for (const viewer_label *other = plan->labels; other < label; other++)
+            free = free && !overlap(label, other, plan->letter);
+        if (free && label->y >= 0.6f * plan->letter &&
+            label->y <= plan->height - 0.6f * plan->letter)
+            return;
+    }
+    label->y = y;
+}
+
+void viewer_draw_plan(const viewer *v, viewer_plan *plan, demo_text *table)
+{
+    static demo_line memory[VIEWER_LINES];
+    static char told[1 << 14];
+    demo_lines room = {memory, VIEWER_LINES, 0};
+    demo_text rows = text_in(told, sizeof told);
+    demo_label labels[DEMO_LABELS];
+    rt_vec3 value = {0, 0, 0};
+    float scale, at[2];
+    const int stage = stage_of(v, v->hold);
+    v->d->live->outlines(stage, &v->view, &room);
+    const bool good = fit(v, &room, plan, &scale, at);
+    trace(v, &room, &rows, NULL, &value);
+    text_add(table, "pixel %d,%d, sample %d = %.4f %.4f %.4f, from %s (v)\n%s", v->x,
+             v->y, v->sample, (double)value.x, (double)value.y, (double)value.z,
+             v->side ? "the side" : "above", told);
+    plan->line_count = plan->label_count = 0;
+    for (int i = 0; i < room.count && good; i++) {
+        const demo_line *l = &room.lines[i];
         const bool path =
             l->kind != LINE_ROOM && l->kind != LINE_NORMAL && l->kind != LINE_BLOCKED;
         float from[2], to[2];
         flatten(v->side, l->from, from);
         flatten(v->side, l->to, to);
-        lines[i] = (viewer_line){at[0] + scale * from[0],
-                                 at[1] + scale * from[1],
-                                 at[0] + scale * to[0],
-                                 at[1] + scale * to[1],
-                                 path ? 1.0f + 3.0f * l->weight : 1.0f,
-                                 l->kind};
+        viewer_line line = {at[0] + scale * from[0],
+                            at[1] + scale * from[1],
+                            at[0] + scale * to[0],
+                            at[1] + scale * to[1],
+                            path ? 1.0f + 3.0f * l->weight : 1.0f,
+                            l->kind};
+        if (cut(&line, plan))
+            plan->lines[plan->line_count++] = line;
     }
-    return count;
+    const int names = v->d->live->labels(stage, v->side, labels);
+    for (int i = 0; i < names && good; i++) {
+        float q[2];
+        flatten(v->side, labels[i].at, q);
+        const float x = at[0] + scale * q[0], y = at[1] + scale * q[1];
+        const float down = labels[i].below ? plan->letter : 0.0f;
+        viewer_label *label = &plan->labels[plan->label_count++];
+        *label = (viewer_label){x, y + down, labels[i].name};
+        place(plan);
+        const viewer_line tie = {x, y, label->x, label->y, 1.0f, LINE_ROOM};
+        if (fabsf(label->y - y) > 2.0f * plan->letter && plan->line_count < VIEWER_LINES)
+            plan->lines[plan->line_count++] = tie; /* it had to go away from its thing */
+    }
 }

@@ -149,20 +149,35 @@ const char *viewer_comparison_name(viewer_comparison comparison);
 /* What stage it is, in words: "4 shadows (the demo's), held: one sample". */
 void viewer_say_stage(const viewer *v, demo_text *out);
 
-/* A line of the plan: from above (x to the right, z down) or from the side (z to the right, y
- * up), as large as width x height allows. */
+/* A line of the plan. None leaves it. */
 typedef struct viewer_line {
     float x0, y0, x1, y1, width;
     demo_kind kind;
 } viewer_line;
 
-/* The path of the pixel that is inspected: its plan, and its words in short. Returns how many lines
- * there are. */
+/* A name in the plan, about the point (x, y). */
+typedef struct viewer_label {
+    float x, y;
+    const char *name;
+} viewer_label;
+
+/* The room from above (x to the right, z down) or from the side (z to the right, y up), as large as
+ * width x height allows, with the path of the sample that is inspected. */
 enum { VIEWER_LINES = 1000 };
-int viewer_plan(const viewer *v, float width, float height,
-                viewer_line lines[VIEWER_LINES], demo_text *summary);
-/* The same path only in words, as --explain has it. */
-void viewer_explain(const viewer *v, demo_text *out);
+typedef struct viewer_plan {
+    float width, height, letter; /* given: the last is the height of the names' letters */
+    int line_count, label_count;
+    viewer_line lines[VIEWER_LINES];
+    viewer_label labels[DEMO_LABELS];
+} viewer_plan;
+
+/* Draw the plan of the path, and tell it: a line that says which sample it is and its value, and
+ * the table of demo_live's path. */
+void viewer_draw_plan(const viewer *v, viewer_plan *plan, demo_text *table);
+/* The same path in words, as --explain has it. */
+rt_status viewer_explain(const viewer *v, demo_text *out, rt_vec3 *value);
+/* The byte for one channel of a pixel. */
+unsigned char viewer_byte(const viewer *v, int stage, float value);
 const char *viewer_kind_name(demo_kind kind); /* for the legend; "": none */
 
 /* The pixel under the pointer: linear, and encoded to these bytes. */

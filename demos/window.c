@@ -1,6 +1,6 @@
 /* The window of the demos: see window.h. It draws what viewer.h says and hands on keys and mouse.
- * Text, and lines that are smooth, need SDL2_gfx; without it the window works, and the title says
- * what is to be said. */
+ * Text needs SDL2_ttf and a font. Without them the window works, and the terminal says what is to
+ * be said. */
 #include "window.h"
 
 #include <stdlib.h>
@@ -9,41 +9,56 @@
 #define SDL_MAIN_HANDLED
 #include <SDL.h>
 
-#ifdef HAVE_GFX
-#include <SDL2_gfxPrimitives.h>
+#ifdef HAVE_TTF
+#include <SDL_ttf.h>
 #endif
 
-static const char *const window_help[] = {
-    "drag        a ball, the cube, the teapot, the lamp; elsewhere: go round",
-    "  + Shift   over the floor and not up",
-    "right drag  the camera sideways;  wheel, PgUp, PgDn: nearer, farther",
-    "  wheel     on the lamp its size, on gloss its sharpness, on glass its index",
-    "arrows      go round (left, right: the sample, while a ray is shown)",
-    "1 ... 7     the same view in chapter 1 ... 7;  8 glass, 9 lamps, 0 gloss;",
-    ",  .         one picture back, one on: also to those that have no key",
-    "b (hold)    the other picture; o: which one that is",
-    "click       show the ray of this pixel; i: and no more",
-    "v           the plan from above, or from the side",
-    "z           a magnifying glass, with the numbers of the pixel",
-    "+  -        samples        ]  [   bounces",
-    "d           without noise (chapter 7);  b (hold): as it was",
-    "g  gamma    w  e  exposure, down and up",
-    "l  numbers  p  packets     t  threads",
-    "r           all as at first",
-    "s           save the picture, and print the camera as C code",
-    "h           these lines            q, Esc   the end",
+/* All of these keys are on every keyboard. */
+static const struct {
+    const char *keys, *what;
+} window_help[] = {
+    {"drag", "move a thing; elsewhere, go round the room"},
+    {"Shift + drag", "move it over the floor, not up"},
+    {"right drag", "move the camera sideways"},
+    {"wheel, PgUp, PgDn", "nearer, farther"},
+    {"wheel on a thing", "its size, its gloss, or its refractive index"},
+    {"arrows", "go round; left, right: other samples of a pixel"},
+    {"1 ... 7", "the same view in chapter 1 ... 7"},
+    {"8  9  0", "glass, lamps, gloss"},
+    {",  .", "the picture before, the next one"},
+    {"click", "show the path of a pixel; i: hide it"},
+    {"v", "the plan from above, or from the side"},
+    {"z", "a magnifying glass, with numbers"},
+    {"b, held down", "compare with another picture; o: choose which"},
+    {"+  -", "twice as many samples, half as many"},
+    {"m  n", "one bounce more, one fewer"},
+    {"d", "without noise, from chapter 7 on"},
+    {"g  e  w", "gamma on, off; brighter, darker"},
+    {"l  p  t", "other numbers; packets of rays; threads"},
+    {"r", "start again with the first view"},
+    {"s", "save the picture, print the camera as C code"},
+    {"h     q, Esc", "hide these lines     quit"},
 };
+
+enum { HELP_LINES = sizeof window_help / sizeof window_help[0] };
 
 struct window {
     SDL_Window *window;
     SDL_Renderer *renderer;
     SDL_Texture *texture;
-    SDL_Rect area;        /* of the picture, in pixels of the screen */
-    float density;        /* such pixels for one of the mouse's */
-    unsigned char *bytes; /* of the picture, 3 for each pixel */
-    bool wide;            /* with room for the plan */
-    bool said_help;       /* in the terminal */
-    double due;           /* when it may be drawn again */
+    SDL_Rect area;                 /* of the picture, in pixels of the screen */
+    SDL_Rect plan, table;          /* beside it and below it, while a path is shown */
+    float density;                 /* such pixels for one of the mouse's */
+    int letter;                    /* the size of text, in pixels of the screen */
+    bool text;                     /* is there a font? */
+    unsigned char *bytes;          /* of the picture, 3 for each pixel */
+    bool wide;                     /* with room for the plan; before that it was */
+    int width, height;             /* so large */
+    bool said_help;                /* in the terminal */
+    bool repeated;                 /* the key that is held, once more */
+    int digit;                     /* by the place of the key that went down last, or 0 */
+    short keys[SDL_NUM_SCANCODES]; /* what the keys that are down meant then */
+    double due;                    /* when it may be drawn again */
     double polled, slowest;
 };
 
@@ -56,70 +71,102 @@ double demo_seconds(void)
  * Drawing
  * ------------------------------------------------------------------------------------- */
 
-static void draw_text(const window *w, int x, int y, const char *words, bool dark)
+/* ---- text, in one font of any size -------------------------------------------------- */
+
+enum { DARK = 40, LIGHT = 240, SMALLEST = 8 }; /* greys; the smallest letters */
+
+#ifdef HAVE_TTF
+
+static TTF_Font *font; /* NULL: none */
+
+/* False: there is none, and why. */
+static bool open_font(const char **why)
 {
-#ifdef HAVE_GFX
-    const float k = w->density > 1.5f ? roundf(w->density) : 1.0f;
-    const unsigned char c = dark ? 40 : 240;
-    SDL_RenderSetScale(w->renderer, k, k);
-    stringRGBA(w->renderer, (Sint16)((float)x / k), (Sint16)((float)y / k), words, c, c,
-               c, 255);
-    SDL_RenderSetScale(w->renderer, 1.0f, 1.0f);
+    if (TTF_Init() == 0)
+        font = TTF_OpenFont(FONT, SMALLEST);
+    *why = font ? NULL : TTF_GetError();
+    return font != NULL;
+}
+
+static void close_font(void)
+{
+    if (font)
+        TTF_CloseFont(font);
+    font = NULL;
+    if (TTF_WasInit())
+        TTF_Quit();
+}
+
+/* So large are letters from now on. (To be told the same again, SDL2_ttf would forget them.) */
+static void set_letter(int letter)
+{
+    static int now;
+    if (letter != now)
+        TTF_SetFontSize(font, letter);
+    now = letter;
+}
+
+static int text_width(int letter, const char *words)
+{
+    int width = 0;
+    if (!font)
+        return 0;
+    set_letter(letter);
+    TTF_SizeUTF8(font, words, &width, NULL);
+    return width;
+}
+
+/* Its left end, and the middle of its height. */
+static void draw_text(const window *w, int letter, int x, int y, const char *words,
+                      Uint8 grey)
+{
+    const SDL_Color colour = {grey, grey, grey, 255};
+    if (!font || !*words)
+        return;
+    set_letter(letter);
+    SDL_Surface *surface = TTF_RenderUTF8_Blended(font, words, colour);
+    if (!surface)
+        return;
+    SDL_Texture *texture = SDL_CreateTextureFromSurface(w->renderer, surface);
+    const SDL_Rect at = {x, y - surface->h / 2, surface->w, surface->h};
+    SDL_RenderCopy(w->renderer, texture, NULL, &at);
+    SDL_DestroyTexture(texture);
+    SDL_FreeSurface(surface);
+}
+
 #else
-    (void)w, (void)x, (void)y, (void)words, (void)dark;
+
+static bool open_font(const char **why)
+{
+    *why = NULL; /* make has said it */
+    return false;
+}
+
+static void close_font(void)
+{
+}
+
+static int text_width(int letter, const char *words)
+{
+    (void)letter, (void)words;
+    return 0;
+}
+
+static void draw_text(const window *w, int letter, int x, int y, const char *words,
+                      Uint8 grey)
+{
+    (void)w, (void)letter, (void)x, (void)y, (void)words, (void)grey;
+}
+
 #endif
+
+/* From one line to the next. */
+static int line_height(int letter)
+{
+    return (5 * letter + 3) / 4;
 }
 
-static int text_height(const window *w)
-{
-    return 11 * (w->density > 1.5f ? (int)roundf(w->density) : 1);
-}
-
-static void draw_words(const window *w, char *words, SDL_Rect at)
-{
-    int y = at.y + 4;
-    for (char *line = strtok(words, "\n"); line; line = strtok(NULL, "\n")) {
-        draw_text(w, at.x + 6, y, line, true);
-        y += text_height(w);
-    }
-}
-
-static void draw_line(SDL_Renderer *renderer, float x0, float y0, float x1, float y1,
-                      float width, SDL_Color c)
-{
-#ifdef HAVE_GFX
-    if (width < 2.0f)
-        aalineRGBA(renderer, (Sint16)x0, (Sint16)y0, (Sint16)x1, (Sint16)y1, c.r, c.g,
-                   c.b, 255);
-    else
-        thickLineRGBA(renderer, (Sint16)x0, (Sint16)y0, (Sint16)x1, (Sint16)y1,
-                      (Uint8)width, c.r, c.g, c.b, 255);
-#else
-    (void)width;
-    SDL_SetRenderDrawColor(renderer, c.r, c.g, c.b, 255);
-    SDL_RenderDrawLine(renderer, (int)x0, (int)y0, (int)x1, (int)y1);
-#endif
-}
-
-/* Where things are on the screen: the picture, and beside it, if a path is shown, the plan
- * and words below it. */
-static void lay_out(window *w, viewer *v, SDL_Rect *plan, SDL_Rect *words)
-{
-    int width = 1, height = 1, points = 1, ignored;
-    SDL_GetRendererOutputSize(w->renderer, &width, &height);
-    SDL_GetWindowSize(w->window, &points, &ignored);
-    w->density = points > 0 ? (float)width / (float)points : 1.0f;
-    const int left = v->inspect && width > 1 ? width / 2 : width;
-    const double zoom =
-        fmin((double)left / v->view.width, (double)height / v->view.height);
-    w->area.w = (int)fmax(1.0, zoom * v->view.width);
-    w->area.h = (int)fmax(1.0, zoom * v->view.height);
-    w->area.x = (left - w->area.w) / 2;
-    w->area.y = (height - w->area.h) / 2;
-    v->slack = 4.0f * (float)v->view.width / (float)w->area.w;
-    *plan = (SDL_Rect){left, 0, width - left, height * 6 / 10};
-    *words = (SDL_Rect){left, plan->h, plan->w, height - plan->h};
-}
+/* ---- shapes ------------------------------------------------------------------------- */
 
 static const SDL_Color line_colours[] = {/* as demo_kind */
                                          {170, 170, 170, 255}, {33, 113, 181, 255},
@@ -128,65 +175,289 @@ static const SDL_Color line_colours[] = {/* as demo_kind */
                                          {30, 30, 30, 255},    {230, 110, 40, 255},
                                          {120, 90, 220, 255}};
 
-static void draw_legend(const window *w, const viewer *v, SDL_Rect plan)
+static void fill(const window *w, SDL_Rect rect, Uint8 grey, Uint8 alpha)
 {
-    int x = plan.x + 6;
+    SDL_SetRenderDrawColor(w->renderer, grey, grey, grey, alpha);
+    SDL_RenderFillRect(w->renderer, &rect);
+}
+
+/* A line whose edges fade out over a pixel. */
+static void draw_line(const window *w, const viewer_line *l)
+{
+    enum { ACROSS = 4 };
+    const float dx = l->x1 - l->x0, dy = l->y1 - l->y0, length = sqrtf(dx * dx + dy * dy);
+    const float half = 0.5f * l->width;
+    const float across[ACROSS] = {-half - 0.5f, -half + 0.5f, half - 0.5f, half + 0.5f};
+    SDL_Vertex points[2 * ACROSS];
+    int corners[6 * (ACROSS - 1)], count = 0;
+    if (!(length > 0.0f))
+        return;
+    for (int i = 0; i < 2 * ACROSS; i++) {
+        const int k = i % ACROSS;
+        const bool end = i >= ACROSS;
+        points[i].position.x =
+            (float)w->plan.x + (end ? l->x1 : l->x0) - across[k] * dy / length;
+        points[i].position.y =
+            (float)w->plan.y + (end ? l->y1 : l->y0) + across[k] * dx / length;
+        points[i].tex_coord = (SDL_FPoint){0.0f, 0.0f};
+        points[i].color = line_colours[l->kind];
+        points[i].color.a = k == 0 || k == ACROSS - 1 ? 0 : 255;
+    }
+    for (int k = 0; k < ACROSS - 1; k++) {
+        const int four[6] = {k, k + 1, k + ACROSS, k + 1, k + ACROSS, k + ACROSS + 1};
+        for (int i = 0; i < 6; i++)
+            corners[count++] = four[i];
+    }
+    SDL_RenderGeometry(w->renderer, NULL, points, 2 * ACROSS, corners, count);
+}
+
+/* The square that stands before words of this kind; the width that it takes. */
+static int draw_mark(const window *w, int letter, int x, int y, demo_kind kind)
+{
+    const SDL_Color c = line_colours[kind];
+    const int side = letter * 2 / 3;
+    const SDL_Rect box = {x, y - side / 2, side, side};
+    SDL_SetRenderDrawColor(w->renderer, c.r, c.g, c.b, 255);
+    SDL_RenderFillRect(w->renderer, &box);
+    return letter;
+}
+
+/* ---- where things are --------------------------------------------------------------- */
+
+/* The picture; and if a path is shown, the plan beside it, and the table below them, as high as
+ * 2/7 of the window. */
+static void lay_out(window *w, viewer *v)
+{
+    int width = 1, height = 1, points = 1, ignored;
+    SDL_GetRendererOutputSize(w->renderer, &width, &height);
+    SDL_GetWindowSize(w->window, &points, &ignored);
+    w->density = points > 0 ? (float)width / (float)points : 1.0f;
+    w->letter = height / 40 > SMALLEST ? height / 40 : SMALLEST + 1;
+    const int left = v->inspect && width > 1 ? width / 2 : width;
+    const int top = v->inspect && w->text ? height * 5 / 7 : height;
+    const double zoom = fmin((double)left / v->view.width, (double)top / v->view.height);
+    w->area.w = (int)fmax(1.0, zoom * v->view.width);
+    w->area.h = (int)fmax(1.0, zoom * v->view.height);
+    w->area.x = (left - w->area.w) / 2;
+    w->area.y = (top - w->area.h) / 2;
+    v->slack = 4.0f * (float)v->view.width / (float)w->area.w;
+    w->plan = (SDL_Rect){left, 0, width - left, top};
+    w->table = (SDL_Rect){0, top, width, height - top};
+}
+
+/* The plan needs as much room again, if the screen has it, and the table some more. */
+static void widen(window *w, const viewer *v)
+{
+    SDL_Rect desk;
+    if (w->wide == v->inspect)
+        return;
+    w->wide = v->inspect;
+    if (!v->inspect) {
+        SDL_SetWindowSize(w->window, w->width, w->height);
+    } else if (SDL_GetDisplayUsableBounds(0, &desk) == 0) {
+        SDL_GetWindowSize(w->window, &w->width, &w->height);
+        const int width = 2 * w->width;
+        const int height = w->text ? (7 * w->height + 4) / 5 : w->height;
+        SDL_SetWindowSize(w->window, width < desk.w ? width : desk.w,
+                          height < desk.h ? height : desk.h);
+        SDL_SetWindowPosition(w->window, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED);
+    }
+}
+
+/* ---- the path of a pixel ------------------------------------------------------------ */
+
+/* The names of the lines, in as many rows as they need; the height that they take. */
+static int draw_legend(const window *w, const viewer *v)
+{
+    const int letter = w->letter, height = line_height(letter);
     const int kinds = v->stage > VIEWER_INDIRECT ? LINE_KINDS : LINE_GLOSS;
-    for (int kind = LINE_CAMERA; kind < kinds; kind++) {
-        const SDL_Color c = line_colours[kind];
+    int x = w->plan.x + letter / 2, y = height;
+    for (int kind = LINE_CAMERA; kind < kinds && w->text; kind++) {
         const char *name = viewer_kind_name((demo_kind)kind);
-        const int size = text_height(w) - 3;
-        const SDL_Rect box = {x, plan.y + 6, size, size};
-        SDL_SetRenderDrawColor(w->renderer, c.r, c.g, c.b, 255);
-        SDL_RenderFillRect(w->renderer, &box);
-        draw_text(w, x + size + 4, plan.y + 6, name, true);
-        x += size * ((int)strlen(name) + 3);
-    }
-}
-
-static void draw_plan(const window *w, const viewer *v, SDL_Rect plan, SDL_Rect at)
-{
-    static viewer_line lines[VIEWER_LINES];
-    static char words[1 << 14];
-    demo_text summary = text_in(words, sizeof words);
-    SDL_SetRenderDrawColor(w->renderer, 250, 250, 250, 255);
-    SDL_RenderFillRect(w->renderer, &plan);
-    SDL_RenderFillRect(w->renderer, &at);
-    draw_legend(w, v, plan);
-    plan.y += 2 * text_height(w);
-    plan.h -= 2 * text_height(w);
-    const int count = viewer_plan(v, (float)plan.w, (float)plan.h, lines, &summary);
-    SDL_RenderSetClipRect(w->renderer, &plan);
-    for (int i = 0; i < count; i++) {
-        const viewer_line *l = &lines[i];
-        float q[4] = {l->x0, l->y0, l->x1, l->y1};
-        for (int k = 0; k < 4; k++) { /* Sint16 is what SDL2_gfx takes */
-            q[k] += (float)(k % 2 ? plan.y : plan.x);
-            q[k] = fmaxf(-9999.0f, fminf(9999.0f, q[k]));
+        const int width = text_width(letter, name) + 2 * letter;
+        if (x + width > w->plan.x + w->plan.w) {
+            x = w->plan.x + letter / 2;
+            y += height;
         }
-        draw_line(w->renderer, q[0], q[1], q[2], q[3], l->width, line_colours[l->kind]);
+        draw_mark(w, letter, x, y, (demo_kind)kind);
+        draw_text(w, letter, x + letter, y, name, DARK);
+        x += width;
     }
-    SDL_RenderSetClipRect(w->renderer, NULL);
-    draw_words(w, words, at);
+    return y + height / 2;
 }
 
-/* A cross on the pixel whose path is shown, and the plan. */
-static void draw_inspector(const window *w, const viewer *v, SDL_Rect plan,
-                           SDL_Rect words)
+static void draw_plan(window *w, const viewer *v, demo_text *table)
 {
+    static viewer_plan plan;
+    fill(w, w->plan, 250, 255);
+    const int legend = draw_legend(w, v);
+    w->plan.y += legend;
+    w->plan.h -= legend;
+    plan.width = (float)w->plan.w;
+    plan.height = (float)w->plan.h;
+    plan.letter = (float)w->letter;
+    viewer_draw_plan(v, &plan, table);
+    for (int i = 0; i < plan.line_count; i++)
+        draw_line(w, &plan.lines[i]);
+    for (int i = 0; i < plan.label_count; i++) {
+        const viewer_label *l = &plan.labels[i];
+        const int width = text_width(w->letter, l->name), height = w->letter;
+        const int x = w->plan.x + (int)l->x - width / 2, y = w->plan.y + (int)l->y;
+        const SDL_Rect behind = {x - 2, y - height / 2, width + 4, height};
+        if (w->text)
+            fill(w, behind, 250, 190);
+        draw_text(w, w->letter, x, y, l->name, DARK);
+    }
+}
+
+enum { TABLE_ROWS = 128 };
+
+typedef struct table {
+    int rows, letter;
+    char *cells[TABLE_ROWS][DEMO_COLUMNS]; /* NULL: none */
+    int widths[DEMO_COLUMNS];              /* 0: the column is not shown */
+} table;
+
+/* Where a word ends, the next begins; the text is cut up for it. */
+static char *next_part(char **text, char end)
+{
+    char *part = *text, *stop = strchr(part, end);
+    *text = stop ? stop + 1 : part + strlen(part);
+    if (stop)
+        *stop = '\0';
+    return part;
+}
+
+static void cut_up(table *t, char *text)
+{
+    for (t->rows = 0; *text && t->rows < TABLE_ROWS; t->rows++) {
+        char *row = next_part(&text, '\n');
+        for (int k = 0; k < DEMO_COLUMNS; k++)
+            t->cells[t->rows][k] = *row ? next_part(&row, '\t') : NULL;
+    }
+}
+
+static demo_kind cell_kind(const char *cell)
+{
+    return (demo_kind)(*cell - '0');
+}
+
+/* As wide as each column must be, and all of them together. What says nothing is left out. */
+static int measure(table *t)
+{
+    int sum = t->letter;
+    for (int k = 0; k < DEMO_COLUMNS; k++) {
+        int widest = 0, says = 0;
+        for (int i = 0; i < t->rows; i++) {
+            const char *cell = t->cells[i][k];
+            const int mark = cell && cell_kind(cell) != LINE_ROOM ? t->letter : 0;
+            const int width = cell ? mark + text_width(t->letter, cell + 1) : 0;
+            widest = width > widest ? width : widest;
+            says += i > 0 && width > 0;
+        }
+        t->widths[k] = says ? widest : 0;
+        sum += says ? widest + t->letter : 0;
+    }
+    return sum;
+}
+
+/* So many rows of the table fit below the line that says which sample it is. */
+static int rows_that_fit(const window *w, const table *t)
+{
+    const int height = line_height(t->letter);
+    return (4 * w->table.h - 5 * height) / (4 * height);
+}
+
+/* The letters as large as the place allows: smaller for more rows, but not much; and for all
+ * columns. Where the smallest are too large, there are fewer columns. */
+static void arrange(const window *w, table *t)
+{
+    const int width = w->table.w, least = w->letter * 3 / 4;
+    static const int spare[] = {COLUMN_PLACE,      COLUMN_NORMAL,  COLUMN_T,
+                                COLUMN_THROUGHPUT, COLUMN_GOES_ON, COLUMN_LAMP};
+    t->letter = w->letter;
+    while (rows_that_fit(w, t) < t->rows && t->letter > least && t->letter > SMALLEST)
+        t->letter--;
+    int sum = measure(t);
+    while (sum > width && t->letter > SMALLEST) {
+        t->letter--;
+        sum = measure(t);
+    }
+    for (size_t i = 0; i < sizeof spare / sizeof spare[0] && sum > width; i++) {
+        sum -= t->widths[spare[i]] > 0 ? t->widths[spare[i]] + t->letter : 0;
+        t->widths[spare[i]] = 0;
+    }
+}
+
+/* Numbers end below each other, words begin there. */
+static bool is_number(int column)
+{
+    return column == COLUMN_T || column == COLUMN_NORMAL || column == COLUMN_THROUGHPUT ||
+           column == COLUMN_ADDS;
+}
+
+static void draw_row(const window *w, const table *t, int row, int y)
+{
+    int x = w->table.x + t->letter;
+    for (int k = 0; k < DEMO_COLUMNS; k++) {
+        const char *cell = t->cells[row][k];
+        if (t->widths[k] == 0)
+            continue;
+        if (cell) {
+            const bool mark = cell_kind(cell) != LINE_ROOM;
+            const int width = text_width(t->letter, cell + 1) + (mark ? t->letter : 0);
+            int from = is_number(k) ? x + t->widths[k] - width : x;
+            if (mark)
+                from += draw_mark(w, t->letter, from, y, cell_kind(cell));
+            draw_text(w, t->letter, from, y, cell + 1, row == 0 ? 110 : DARK);
+        }
+        x += t->widths[k] + t->letter;
+    }
+}
+
+static void draw_table(const window *w, char *text)
+{
+    static table t;
+    const char *sample = next_part(&text, '\n');
+    fill(w, w->table, 250, 255);
+    cut_up(&t, text);
+    arrange(w, &t);
+    const int height = line_height(t.letter), room = rows_that_fit(w, &t);
+    const int rows = t.rows <= room ? t.rows : room - 1;
+    int y = w->table.y + height * 3 / 4;
+    draw_text(w, t.letter, w->table.x + t.letter, y, sample, DARK);
+    for (int i = 0; i < rows; i++)
+        draw_row(w, &t, i, y += height);
+    if (rows < t.rows) {
+        char more[80];
+        demo_text out = text_in(more, sizeof more);
+        text_add(&out, "and %d more: a click prints all of them", t.rows - rows);
+        draw_text(w, t.letter, w->table.x + t.letter, y + height, more, 110);
+    }
+}
+
+/* A cross on the pixel whose path is shown, the plan, and the table. */
+static void draw_inspector(window *w, const viewer *v)
+{
+    static char words[1 << 14];
+    demo_text told = text_in(words, sizeof words);
     const float zoom = (float)w->area.w / (float)v->view.width;
     const int x = w->area.x + (int)(zoom * ((float)v->x + 0.5f));
     const int y = w->area.y + (int)(zoom * ((float)v->y + 0.5f));
-    const SDL_Rect cross[2] = {{x - 8, y, 17, 1}, {x, y - 8, 1, 17}};
-    SDL_SetRenderDrawColor(w->renderer, 255, 255, 255, 255);
-    SDL_RenderFillRects(w->renderer, cross, 2);
-    draw_plan(w, v, plan, words);
+    fill(w, (SDL_Rect){x - 8, y, 17, 1}, 255, 255);
+    fill(w, (SDL_Rect){x, y - 8, 1, 17}, 255, 255);
+    draw_plan(w, v, &told);
+    if (w->text)
+        draw_table(w, words);
 }
 
-/* Eleven by eleven pixels about the mouse, magnified. */
-static void draw_glass(const window *w, const viewer *v, const rt_image *shown)
+/* Eleven by eleven pixels about the mouse, magnified, and its numbers below. */
+static void draw_glass(const window *w, const viewer *v, const rt_image *shown,
+                       const char *numbers)
 {
-    enum { SIDE = 11, SIZE = 12 };
+    enum { SIDE = 11 };
+    const int size = w->letter > 12 ? w->letter : 12, x0 = w->area.x + 8;
+    const int y0 = w->area.y + 8;
     const int cx = (int)(v->mouse_x * (float)shown->width / (float)v->view.width);
     const int cy = (int)(v->mouse_y * (float)shown->height / (float)v->view.height);
     for (int j = 0; j < SIDE; j++)
@@ -194,28 +465,46 @@ static void draw_glass(const window *w, const viewer *v, const rt_image *shown)
             const int x = cx + i - SIDE / 2, y = cy + j - SIDE / 2;
             const bool inside = x >= 0 && y >= 0 && x < shown->width && y < shown->height;
             const unsigned char *c = w->bytes + (inside ? 3 * (y * shown->width + x) : 0);
-            const SDL_Rect at = {w->area.x + 8 + i * SIZE, w->area.y + 8 + j * SIZE, SIZE,
-                                 SIZE};
+            const SDL_Rect at = {x0 + i * size, y0 + j * size, size, size};
             SDL_SetRenderDrawColor(w->renderer, inside ? c[0] : 0, inside ? c[1] : 0,
                                    inside ? c[2] : 0, 255);
             SDL_RenderFillRect(w->renderer, &at);
         }
-    const int half = SIDE / 2 * SIZE + 8;
-    const SDL_Rect middle = {w->area.x + half, w->area.y + half, SIZE, SIZE};
+    const SDL_Rect middle = {x0 + SIDE / 2 * size, y0 + SIDE / 2 * size, size, size};
     SDL_SetRenderDrawColor(w->renderer, 255, 255, 255, 255);
     SDL_RenderDrawRect(w->renderer, &middle);
+    const int width = text_width(w->letter, numbers), height = line_height(w->letter);
+    const SDL_Rect behind = {x0, y0 + SIDE * size, width + w->letter, height};
+    if (width > 0)
+        fill(w, behind, 0, 190);
+    draw_text(w, w->letter, x0 + w->letter / 2, behind.y + height / 2, numbers, LIGHT);
 }
 
+/* The keys in one column and what they do in another, as large as the window allows. */
 static void draw_help(const window *w)
 {
-    const int lines = (int)(sizeof window_help / sizeof window_help[0]);
-    const int height = text_height(w);
-    const SDL_Rect box = {w->area.x, w->area.y, 620 * height / 11, (lines + 1) * height};
-    SDL_SetRenderDrawBlendMode(w->renderer, SDL_BLENDMODE_BLEND);
-    SDL_SetRenderDrawColor(w->renderer, 0, 0, 0, 190);
-    SDL_RenderFillRect(w->renderer, &box);
-    for (int i = 0; i < lines; i++)
-        draw_text(w, box.x + 8, box.y + 6 + i * height, window_help[i], false);
+    int window_width = 0, window_height = 0, keys = 0, what = 0, letter;
+    SDL_GetRendererOutputSize(w->renderer, &window_width, &window_height);
+    for (letter = window_height / 25; letter > SMALLEST - 2; letter--) {
+        keys = what = 0;
+        for (int i = 0; i < HELP_LINES; i++) {
+            const int k = text_width(letter, window_help[i].keys);
+            const int h = text_width(letter, window_help[i].what);
+            keys = k > keys ? k : keys;
+            what = h > what ? h : what;
+        }
+        if (keys + what + 3 * letter <= window_width &&
+            HELP_LINES * line_height(letter) + letter <= window_height)
+            break;
+    }
+    const int height = line_height(letter);
+    const SDL_Rect box = {0, 0, keys + what + 3 * letter, HELP_LINES * height + letter};
+    fill(w, box, 0, 230);
+    for (int i = 0; i < HELP_LINES; i++) {
+        const int y = letter / 2 + i * height + height / 2;
+        draw_text(w, letter, letter, y, window_help[i].keys, LIGHT);
+        draw_text(w, letter, 2 * letter + keys, y, window_help[i].what, LIGHT);
+    }
 }
 
 static void set_title(const window *w, viewer *v, const rt_image *shown,
@@ -236,46 +525,28 @@ static void set_title(const window *w, viewer *v, const rt_image *shown,
     SDL_SetWindowTitle(w->window, words);
 }
 
-/* The plan needs as much room again, if the screen has it. */
-static void widen(window *w, const viewer *v)
-{
-    SDL_Rect desk;
-    int width, height;
-    if (w->wide == v->inspect)
-        return;
-    w->wide = v->inspect;
-    SDL_GetWindowSize(w->window, &width, &height);
-    if (!v->inspect) {
-        SDL_SetWindowSize(w->window, width / 2, height);
-    } else if (SDL_GetDisplayUsableBounds(0, &desk) == 0) {
-        SDL_SetWindowSize(w->window, 2 * width < desk.w ? 2 * width : desk.w, height);
-        SDL_SetWindowPosition(w->window, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED);
-    }
-}
-
 void window_draw(window *w, viewer *v)
 {
-    SDL_Rect plan, words;
     char numbers[120];
     demo_text pixel = text_in(numbers, sizeof numbers);
     const rt_image *shown = viewer_shown(v);
     const SDL_Rect part = {0, 0, shown->width, shown->height};
     v->redraw = false;
     widen(w, v);
-    lay_out(w, v, &plan, &words);
+    lay_out(w, v);
     viewer_encode(v, v->hold, shown, 3, w->bytes);
     SDL_UpdateTexture(w->texture, &part, w->bytes, 3 * shown->width);
+    SDL_SetRenderDrawBlendMode(w->renderer, SDL_BLENDMODE_BLEND);
     SDL_SetRenderDrawColor(w->renderer, 0, 0, 0, 255);
     SDL_RenderClear(w->renderer);
     SDL_RenderCopy(w->renderer, w->texture, &part, &w->area);
     if (v->inspect)
-        draw_inspector(w, v, plan, words);
+        draw_inspector(w, v);
     if (v->glass) {
-        draw_glass(w, v, shown);
         viewer_say_pixel(v, shown, w->bytes, &pixel);
-        draw_text(w, w->area.x + 8, w->area.y + 146, numbers, false);
+        draw_glass(w, v, shown, numbers);
     }
-    if (v->help)
+    if (v->help && w->text)
         draw_help(w);
     set_title(w, v, shown, numbers);
     SDL_RenderPresent(w->renderer);
@@ -298,10 +569,15 @@ bool window_is_due(const window *w)
  * Events
  * ------------------------------------------------------------------------------------- */
 
-/* The viewer's name of a key; 0: none. Where digits need Shift, as on a French keyboard, the keys
- * of the row count by their place. */
+/* The signs and digits that are typed, whatever keys that takes on this keyboard. */
+static const char typed_keys[] = "0123456789+-=,.[]";
+
+/* What other keys mean, 0: nothing. A letter is what the key types, wherever it is; where that is
+ * no Latin letter, the key counts by its place. */
 static int key_of(SDL_Keysym key)
 {
+    const SDL_Scancode place = key.scancode;
+    const bool other = key.sym > 127 && !(key.sym & SDLK_SCANCODE_MASK);
     switch (key.sym) {
     case SDLK_LEFT: return KEY_LEFT;
     case SDLK_RIGHT: return KEY_RIGHT;
@@ -309,30 +585,61 @@ static int key_of(SDL_Keysym key)
     case SDLK_DOWN: return KEY_DOWN;
     case SDLK_PAGEUP: return KEY_NEARER;
     case SDLK_PAGEDOWN: return KEY_FARTHER;
-    case SDLK_KP_PLUS: return '+';
-    case SDLK_KP_MINUS: return '-';
+    case SDLK_ESCAPE: return 27;
     default: break;
     }
-    const bool row = key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_0;
-    const bool sign = key.sym == '-' || key.sym == '=' || key.sym == '+'; /* also there */
-    if (row && (!sign || (key.mod & KMOD_SHIFT) != 0))
-        return '0' + (int)(key.scancode - SDL_SCANCODE_1 + 1) % 10;
-    return key.sym > 0 && key.sym < 128 ? (int)key.sym : 0;
+    if (key.sym >= 'a' && key.sym <= 'z')
+        return (int)key.sym;
+    if (other && place >= SDL_SCANCODE_A && place <= SDL_SCANCODE_Z)
+        return 'a' + (int)(place - SDL_SCANCODE_A);
+    return 0;
 }
 
-static void handle_key(window *w, viewer *v, SDL_Keysym key, bool repeated)
+static void handle_key(window *w, viewer *v, int key)
 {
-    if (key.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI))
-        return;
     w->due = 0.0;
-    viewer_key(v, key_of(key), repeated);
-#ifndef HAVE_GFX
-    for (size_t i = 0; i < sizeof window_help / sizeof window_help[0] && v->help; i++)
-        if (!w->said_help)
-            printf("%s\n", window_help[i]);
+    viewer_key(v, key, w->repeated);
+    for (int i = 0; i < HELP_LINES && v->help && !w->said_help && !w->text; i++)
+        printf("%-18s %s\n", window_help[i].keys, window_help[i].what);
     fflush(stdout);
     w->said_help = v->help;
-#endif
+}
+
+static void handle_key_down(window *w, viewer *v, const SDL_KeyboardEvent *e)
+{
+    const SDL_Keysym key = e->keysym;
+    const bool row = key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_0;
+    w->repeated = e->repeat != 0;
+    w->digit = 0;
+    if (key.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI | KMOD_MODE))
+        return;
+    if (row && !(key.mod & KMOD_SHIFT))
+        w->digit = '0' + (int)(key.scancode - SDL_SCANCODE_1 + 1) % 10;
+    w->keys[key.scancode] = (short)key_of(key);
+    if (w->keys[key.scancode] != 0)
+        handle_key(w, v, w->keys[key.scancode]);
+}
+
+/* A key that goes up is what it was when it went down: the layout may have changed since. */
+static void handle_key_up(window *w, viewer *v, SDL_Scancode place)
+{
+    viewer_key_up(v, w->keys[place]);
+    w->keys[place] = 0;
+}
+
+/* The key that types a digit elsewhere counts as that if it types nothing that means something:
+ * on a French keyboard digits need Shift. AltGr, which types signs, is Ctrl and Alt on some
+ * systems. */
+static void handle_text(window *w, viewer *v, const char *text)
+{
+    const int held = SDL_GetModState();
+    const bool alt_gr = (held & (KMOD_RALT | KMOD_MODE)) != 0;
+    if ((held & KMOD_GUI) != 0 || ((held & (KMOD_CTRL | KMOD_LALT)) != 0 && !alt_gr))
+        return;
+    const bool typed = text[0] != '\0' && text[1] == '\0' && strchr(typed_keys, text[0]);
+    const int key = typed ? text[0] : w->digit;
+    if (key != 0)
+        handle_key(w, v, key);
 }
 
 /* A place in the window as one in the picture. */
@@ -354,8 +661,9 @@ static void handle(window *w, viewer *v, const SDL_Event *e)
     case SDL_QUIT: v->closed = true; break;
     case SDL_WINDOWEVENT:
     case SDL_RENDER_TARGETS_RESET: w->due = 0.0; break;
-    case SDL_KEYDOWN: handle_key(w, v, e->key.keysym, e->key.repeat != 0); break;
-    case SDL_KEYUP: viewer_key_up(v, key_of(e->key.keysym)); break;
+    case SDL_KEYDOWN: handle_key_down(w, v, &e->key); break;
+    case SDL_KEYUP: handle_key_up(w, v, e->key.keysym.scancode); break;
+    case SDL_TEXTINPUT: handle_text(w, v, e->text.text); break;
     case SDL_MOUSEBUTTONDOWN:
         if (w->area.w > 0) /* it was drawn */
             viewer_press(v, picture_x(w, v, e->button.x), picture_y(w, v, e->button.y),
@@ -474,8 +782,11 @@ window *window_open(const viewer *v, const char **why)
         *why = SDL_GetError();
         w->bytes = malloc((size_t)width * (size_t)height * 3);
     }
-    if (w->texture && w->bytes)
+    if (w->texture && w->bytes) {
+        SDL_StartTextInput();
+        w->text = open_font(why);
         return w;
+    }
     static char said[200]; /* SDL forgets it when it ends */
     snprintf(said, sizeof said, "%s", *why);
     *why = said;
@@ -489,5 +800,6 @@ void window_close(window *w)
     SDL_DestroyRenderer(w->renderer);
     SDL_DestroyWindow(w->window);
     free(w->bytes);
+    close_font();
     SDL_Quit();
 }

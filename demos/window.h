@@ -6,7 +6,8 @@
 
 typedef struct window window;
 
-/* NULL where there is no display; then *why says what is missing. */
+/* NULL where there is no display; then *why says what is missing. Otherwise it says why there is no
+ * text in the window, or is NULL. */
 window *window_open(const viewer *v, const char **why);
 void window_close(window *w);
 

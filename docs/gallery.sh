@@ -9,7 +9,7 @@ trap 'rm -rf "$work"' EXIT
 export OMP_WAIT_POLICY=passive LC_ALL=C
 flags="-std=c99 -O2 -fno-math-errno -ffp-contract=off -w -I."
 openmp=$(.ci/deps openmp "$cc")
-libs="$(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) $(pkg-config --libs assimp 2>/dev/null) -lm"
+libs="$(pkg-config --libs sdl2 $(pkg-config --exists SDL2_ttf && echo SDL2_ttf)) $(pkg-config --libs assimp 2>/dev/null) -lm"
 
 field() { # FILE NAME: from the comment at the top of a mistake, on one line
     awk -v name="$2" 'index($0, " * " name ":") == 1 { on = 1; sub(/^ \* [A-Z][a-z]*: */, ""); print; next }

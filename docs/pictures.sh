@@ -7,7 +7,7 @@ cc=${CC:-cc} build=${BUILD:-build}
 work=$(mktemp -d "$build/pictures.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 export OMP_WAIT_POLICY=passive
-libs="$(pkg-config --libs sdl2 $(pkg-config --exists SDL2_gfx && echo SDL2_gfx)) $(pkg-config --libs assimp 2>/dev/null) -lm"
+libs="$(pkg-config --libs sdl2 $(pkg-config --exists SDL2_ttf && echo SDL2_ttf)) $(pkg-config --libs assimp 2>/dev/null) -lm"
 for file in docs/pictures/*.c; do
     name=$(basename "$file" .c)
     $cc -std=c99 -O2 -fno-math-errno -ffp-contract=off -w -I. $(.ci/deps openmp "$cc") -o "$work/$name" \

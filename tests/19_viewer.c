@@ -10,6 +10,7 @@
 #include "../demos/viewer.c"
 
 #include "../demos/live.h"
+#include "explained.h"
 
 enum { W = 48, H = 36, ALL = W * H };
 
@@ -367,14 +368,61 @@ static void test_the_path_says_what_happens(void **state)
     for (v.sample = 0; v.sample < 60; v.sample++)
         for (int at = 0; at < 2; at++) {
             demo_text out = text_in(words, sizeof words);
+            rt_vec3 value;
             v.inspect = true;
             v.x = (int)(at ? glass_x : mirror_x);
             v.y = (int)(at ? glass_y : mirror_y);
-            viewer_explain(&v, &out);
+            assert_int_equal(viewer_explain(&v, &out, &value), RT_OK);
             for (int i = 0; i < 6; i++)
                 found |= strstr(words, expected[i]) ? 1u << i : 0;
         }
     assert_int_equal(found, 63);
+}
+
+/* In every stage, as its own chapter has it: with and without bounces, with both kinds of numbers,
+ * in halves and not. */
+static void test_what_is_told_is_the_sample_that_is_shown(void **state)
+{
+    (void)state;
+    for (int stage = 1; stage <= VIEWER_STAGES; stage++)
+        for (int sobol = 0; sobol <= 1; sobol++) {
+            v.options.sampler = sobol ? RT_SOBOL : RT_RANDOM;
+            viewer_set_bounces(&v, stage < 6 ? 0 : stage < 8 ? 5 : 8);
+            viewer_set_stage(&v, stage);
+            viewer_set_samples(&v, 1);
+            settle();
+            assert_int_equal(expect_stage_explained(&v), 0);
+        }
+}
+
+/* Also while another picture is held, and of a demo that does something else than rt.h. */
+static void test_what_is_told_of_another_picture(void **state)
+{
+    (void)state;
+    viewer_set_samples(&v, 1);
+    viewer_set_stage(&v, 5);
+    v.comparison = BEFORE;
+    viewer_key(&v, 'b', false);
+    settle();
+    memcpy(v.image.pixels, v.other.pixels, ALL * sizeof(rt_vec3));
+    assert_int_equal(expect_stage_explained(&v), 0);
+}
+
+static rt_vec3 brighter_pixel(const demo_view *view, float x, float y, rt_rng *rng)
+{
+    return rt_add(pixel(view, x, y, rng), rt_vec(0.1f, 0, 0));
+}
+
+static void test_what_is_told_of_a_demo_with_a_mistake(void **state)
+{
+    (void)state;
+    demo mistaken = the_demo;
+    mistaken.pixel = brighter_pixel;
+    v.d = &mistaken;
+    viewer_set_samples(&v, 1);
+    settle();
+    assert_int_equal(expect_stage_explained(&v), EXPLAINED);
+    v.d = &the_demo;
 }
 
 static void test_held_is_the_chapter_before(void **state)
@@ -419,10 +467,10 @@ static void test_samples_and_bounces_have_limits(void **state)
         viewer_key(&v, '-', false);
     assert_int_equal(v.samples, 1);
     for (int i = 0; i < 200; i++)
-        viewer_key(&v, ']', false);
+        viewer_key(&v, i % 2 ? ']' : 'm', false);
     assert_int_equal(v.options.bounces, RT_ALL_BOUNCES);
     for (int i = 0; i < 200; i++)
-        viewer_key(&v, '[', false);
+        viewer_key(&v, i % 2 ? '[' : 'n', false);
     assert_int_equal(v.options.bounces, 0);
     assert_int_equal(v.view.bounces, 0);
 }
@@ -524,28 +572,82 @@ static void test_without_noise(void **state)
 static void test_the_plan_fits(void **state)
 {
     (void)state;
-    static viewer_line lines[VIEWER_LINES];
+    static viewer_plan plan = {.width = 200, .height = 150, .letter = 9};
     char words[4000];
     for (int side = 0; side <= 1; side++)
         for (int stage = 1; stage <= VIEWER_STAGES; stage++) {
-            demo_text summary = text_in(words, sizeof words);
+            demo_text table = text_in(words, sizeof words);
             viewer_set_stage(&v, stage);
             v.side = side == 1;
             viewer_inspect(&v, (int)ball_x, (int)ball_y);
-            const int count = viewer_plan(&v, 200, 100, lines, &summary);
+            viewer_draw_plan(&v, &plan, &table);
             int outlines = 0;
-            for (int i = 0; i < count; i++) {
-                const float ends[4] = {lines[i].x0, lines[i].x1, lines[i].y0,
-                                       lines[i].y1};
-                for (int k = 0; k < 4 && lines[i].kind == LINE_ROOM; k++)
-                    assert_true(ends[k] >= 0.0f && ends[k] <= (k < 2 ? 200.0f : 100.0f));
-                outlines += lines[i].kind == LINE_ROOM;
+            for (int i = 0; i < plan.line_count; i++) {
+                const viewer_line *l = &plan.lines[i];
+                const float ends[4] = {l->x0, l->x1, l->y0, l->y1};
+                for (int k = 0; k < 4; k++)
+                    assert_true(ends[k] > -0.01f &&
+                                ends[k] < (k < 2 ? 200.01f : 150.01f));
+                outlines += l->kind == LINE_ROOM;
             }
-            assert_true(outlines > 0 && outlines < count);
+            assert_true(outlines > 0 && outlines < plan.line_count);
             assert_non_null(strstr(words, "the red sphere"));
             if (stage <= VIEWER_INDIRECT)
-                assert_true((strstr(words, "lamp seen") != NULL) == (stage >= 4));
+                assert_true((strstr(words, "seen") != NULL) == (stage >= 4));
         }
+}
+
+/* Every thing has its name, whole and beside the others. */
+static void test_names_in_the_plan(void **state)
+{
+    (void)state;
+    static viewer_plan plan = {.width = 320, .height = 240, .letter = 10};
+    static const char *const names[] = {"camera",   "lamp",       "red sphere",
+                                        "mirror",   "glass ball", "teapot",
+                                        "pedestal", "back wall"};
+    char words[4000];
+    for (int side = 0; side <= 1; side++) {
+        demo_text table = text_in(words, sizeof words);
+        viewer_set_stage(&v, VIEWER_STAGES);
+        v.side = side == 1;
+        viewer_draw_plan(&v, &plan, &table);
+        for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+            int found = 0;
+            for (int k = 0; k < plan.label_count; k++)
+                found += strcmp(plan.labels[k].name, names[i]) == 0;
+            assert_int_equal(found, 1);
+        }
+        for (int i = 0; i < plan.label_count; i++) {
+            const viewer_label *a = &plan.labels[i];
+            const float half = 0.3f * 10 * (float)strlen(a->name);
+            assert_true(a->x >= half && a->x <= 320 - half && a->y >= 5 && a->y <= 235);
+            for (int k = 0; k < i; k++)
+                assert_false(overlap(a, &plan.labels[k], 10));
+        }
+    }
+}
+
+/* What leaves the scene leaves the plan, too: its line ends at the edge. */
+static void test_a_path_that_leaves_is_drawn_to_the_edge(void **state)
+{
+    (void)state;
+    static viewer_plan plan = {.width = 200, .height = 150, .letter = 9};
+    char words[4000];
+    demo_text table = text_in(words, sizeof words);
+    viewer_set_stage(&v, 1);
+    viewer_inspect(&v, 2, 2); /* there is only the ball */
+    viewer_draw_plan(&v, &plan, &table);
+    int rays = 0;
+    for (int i = 0; i < plan.line_count; i++)
+        if (plan.lines[i].kind == LINE_CAMERA) {
+            const viewer_line *l = &plan.lines[i];
+            const float edge =
+                fminf(fminf(l->x1, 200 - l->x1), fminf(l->y1, 150 - l->y1));
+            assert_true(fabsf(edge) < 0.01f);
+            rays++;
+        }
+    assert_int_equal(rays, 1);
+    assert_non_null(strstr(words, "nothing"));
 }
 
 static void test_too_long_a_text_is_cut(void **state)
@@ -578,6 +680,9 @@ int main(void)
         TEST(test_the_wheel_on_mesh_and_pedestal),
         TEST(test_exposure_is_a_factor),
         TEST(test_the_path_says_what_happens),
+        TEST(test_what_is_told_is_the_sample_that_is_shown),
+        TEST(test_what_is_told_of_another_picture),
+        TEST(test_what_is_told_of_a_demo_with_a_mistake),
         TEST(test_held_is_the_chapter_before),
         TEST(test_other_numbers),
         TEST(test_samples_and_bounces_have_limits),
@@ -587,6 +692,8 @@ int main(void)
         TEST(test_drafts_are_as_large_as_time_allows),
         TEST(test_without_noise),
         TEST(test_the_plan_fits),
+        TEST(test_names_in_the_plan),
+        TEST(test_a_path_that_leaves_is_drawn_to_the_edge),
         TEST(test_too_long_a_text_is_cut),
     };
     return cmocka_run_group_tests_name("19 viewer", tests, NULL, NULL);

@@ -232,15 +232,97 @@ def test_the_first_picture_is_that_of_the_command_line(display):
     window.end()
 
 
-def test_keys_change_what_they_say(display):
-    window = Window(display, "demo08", *SMALL, "--threads", "1")
-    for key, pattern in [("plus", ", 8 samples"), ("minus", ", 8 samples"),
-                         ("bracketright", "6 bounces"), ("bracketleft", "5 bounces"),
-                         ("l", "random"), ("l", "sobol"), ("p", ", 1 at a time"),
-                         ("t", "2 threads"), ("t", "1 thread,")]:
-        window.key(key)
-        window.wait(pattern)
-    window.end()
+# Where on the keyboard a sign is: the key's number, and Shift or AltGr.
+ROWS = {10: "1234567890", 24: "qwertyuiop", 38: "asdfghjkl", 52: "zxcvbnm"}
+PLACES = {sign: (first + i,) for first, row in ROWS.items() for i, sign in enumerate(row)}
+SHIFT, ALT_GR = 50, 108
+LAYOUTS = {
+    "us": {"+": (21, SHIFT), "-": (20,), ",": (59,), ".": (60,), "[": (34,), "]": (35,)},
+    "fr": {**{sign: (10 + i, SHIFT) for i, sign in enumerate("1234567890")},
+           "q": (38,), "w": (52,), "z": (25,), "m": (47,), "+": (21, SHIFT), "-": (15,),
+           ",": (58,), ".": (59, SHIFT), "[": (14, ALT_GR), "]": (20, ALT_GR)},
+    "de": {"z": (29,), "+": (35,), "-": (61,), ",": (59,), ".": (60,),
+           "[": (17, ALT_GR), "]": (18, ALT_GR)},
+    "es": {"+": (35,), "-": (61,), ",": (59,), ".": (60,),
+           "[": (34, ALT_GR), "]": (35, ALT_GR)},
+    "ru": {"+": (21, SHIFT), "-": (20,), ",": (61, SHIFT), ".": (61,)}}
+
+
+class Keyboard:
+    """Keys by their place, while the layout changes under them."""
+
+    def __init__(self, window, layout):
+        self.window = window
+        self.places = {**PLACES, **LAYOUTS[layout]}
+        subprocess.run(["setxkbmap", layout], env=window.env, check=True)
+        time.sleep(0.1)
+
+    def press(self, signs):
+        for sign in signs:
+            key, *held = [str(place) for place in self.places[sign]]
+            words = [word for mod in held for word in ("keydown", mod)]
+            self.window.xdotool(*words, "key", key,
+                                *[word for mod in held for word in ("keyup", mod)])
+
+
+def letters_that_change_the_screen(window, keyboard):
+    before = window.screen()
+    for key in "ghz":
+        keyboard.press(key)
+        assert window.screen() != before, "key %s: nothing seen" % key
+        keyboard.press(key)
+    saved = window.said().count("saved")
+    keyboard.press("s")
+    until(lambda: window.said().count("saved") > saved)
+    window.click(80, 60)
+    seen = window.screen()
+    keyboard.press("v")
+    assert window.screen() != seen, "key v: nothing seen"
+    keyboard.press("i")
+    until(lambda: window.screen()[0] == before[0])
+
+
+def test_the_keys_of_the_help_on_every_keyboard(display):
+    """The layout changes while the window is open, and while a key is held."""
+    if not shutil.which("setxkbmap"):
+        print("note: setxkbmap is missing (Debian: apt-get install x11-xkb-utils): "
+              "keyboards not tested")
+        return
+    window = Window(display, "demo08", *SMALL, "--threads", "1", "--lanes", "1")
+    for layout in LAYOUTS:
+        keyboard = Keyboard(window, layout)
+        expected_words = [(str(stage), "%d %s" % (stage, NAMES[stage])) for stage in range(1, 8)]
+        expected_words += [
+            ("8", "11 glass"), ("9", "12 lamps"), ("0", "13 gloss"), (".", "14 lens"),
+            (",", "13 gloss"), ("r", "7 indirect"), ("+", ", 8 samples"), ("-", ", 8 samples"),
+            ("m", "6 bounces"), ("n", "5 bounces"), ("l", ", random"), ("l", ", sobol"),
+            ("p", r", \d+ at a time"), ("p", ", 1 at a time"), ("t", "2 threads"),
+            ("t", "1 thread,"), ("d", "finished"), ("d", "error [0-9.]* %, [0-9]"),
+            ("e", r"exposure \+0.5"), ("ww", "exposure -0.5"), ("e", "demo's\\), 4 samples")]
+        if "[" in LAYOUTS[layout]:
+            expected_words += [("]", "6 bounces"), ("[", "5 bounces")]
+        for keys, pattern in expected_words:
+            keyboard.press(keys)
+            try:
+                window.wait(pattern, 5)
+            except AssertionError as error:
+                raise AssertionError("%s, key %s: %s" % (layout, keys, error)) from None
+        if layout in ("fr", "de"):  # where letters are elsewhere
+            letters_that_change_the_screen(window, keyboard)
+        place = str(keyboard.places["b"][0])
+        window.xdotool("keydown", place)
+        window.wait("held: the chapter before")
+        subprocess.run(["setxkbmap", "ru" if layout == "us" else "us"], env=window.env, check=True)
+        window.xdotool("keyup", place)
+        until(lambda: "held" not in window.title())
+        Keyboard(window, layout).press("r")
+    for i, stage in enumerate((1, 2, 3, 4, 5)):  # on a French keyboard by place, too
+        Keyboard(window, "fr")
+        window.xdotool("key", str(10 + i))
+        window.wait("%d %s" % (stage, NAMES[stage]))
+    Keyboard(window, "fr").press("q")
+    assert window.process.wait(10) == 0
+    subprocess.run(["setxkbmap", "us"], env=window.env, check=True)
 
 
 def view(said):
@@ -310,12 +392,12 @@ def test_the_magnifying_glass_tells_the_truth(display):
     window = Window(display, "demo05", "320", "240", "--samples", "4")
     window.wait("4 samples")
     window.key("z")
-    window.move(200, 150)
-    match = window.wait(r"200,150: ([0-9.e-]+) \S+ \S+ -> (\d+) \d+ \d+")
+    window.move(250, 200)
+    match = window.wait(r"250,200: ([0-9.e-]+) \S+ \S+ -> (\d+) \d+ \d+")
     linear, byte = float(match.group(1)), int(match.group(2))
     assert byte == int(255 * min(linear, 1) ** (1 / 2.2) + 0.5), match.group(0)
     _, _, rows = window.screen()
-    assert rows[150][600] == byte, (rows[150][600], byte)
+    assert rows[200][750] == byte, (rows[200][750], byte)
     window.end()
 
 
@@ -625,21 +707,25 @@ def test_the_preview_in_a_terminal(_):
     assert "\33[?25l" not in said and "\33[?1049h" not in said
 
 
-def test_without_sdl_gfx(display):
-    """The window works without text."""
-    subprocess.run(["make", "-s", "BUILD=build/no-gfx", "GFX=", "CFLAGS=-O2 -Werror",
-                    "build/no-gfx/demo01"], check=True, stdout=subprocess.DEVNULL)
+def test_without_text(display):
+    """The window works without SDL2_ttf, and where the font is missing."""
     global DEMOS
-    full, DEMOS = DEMOS, os.path.abspath("build/no-gfx")
-    try:
-        window = Window(display, "demo01", *SMALL)
-        window.wait("1 sphere")
-        window.click(40, 70)
-        window.key("h")
-        until(lambda: "sample 0" in window.said() and "hold" in window.said())
-        window.end()
-    finally:
-        DEMOS = full
+    full = DEMOS
+    for name, setting in (("no-ttf", "TTF="), ("no-font", "FONT=/nowhere/there is none.ttf")):
+        subprocess.run(["make", "-s", "BUILD=build/" + name, setting, "CFLAGS=-O1 -Werror",
+                        "build/%s/demo01" % name], check=True, stdout=subprocess.DEVNULL)
+        DEMOS = os.path.abspath("build/" + name)
+        try:
+            window = Window(display, "demo01", *SMALL)
+            window.wait("1 sphere")
+            window.click(40, 70)
+            window.key("h", "z", "v")
+            until(lambda: "sample 0" in window.said() and "held down" in window.said())
+            said = re.findall(r"demo01: no text in the window \(.*nowhere.*\)\n", window.said())
+            assert len(said) == (name == "no-font"), window.said()
+            window.end()
+        finally:
+            DEMOS = full
 
 
 def test_no_leak_of_ours(display):

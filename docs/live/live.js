@@ -39,7 +39,7 @@ async function bring_to_life(root, name, encoded) {
     const [W, H] = (asked.get('size') ?? '480x360').split('x').map(Number), chapter = chapters[name];
     const bytes = Uint8Array.from(atob(encoded), c => c.charCodeAt(0));
     const begun = performance.now(), seconds = () => performance.now() / 1000;
-    const {ex, text, bytes: memory, wish} = open(await WebAssembly.compile(bytes), W, H);
+    const {ex, text, wish, path} = open(await WebAssembly.compile(bytes), W, H);
     const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
     /* Its state beside the viewer's. */
@@ -104,6 +104,7 @@ async function bring_to_life(root, name, encoded) {
     function watch(w) {
         clearTimeout(w.alarm);
         w.owes = drawn_by === 'mine';
+        w.only_path = false;
         if (w.owes)
             w.alarm = setTimeout(() => give_up('stopped: it did not end within 3 s'), 3000);
     }
@@ -218,6 +219,10 @@ async function bring_to_life(root, name, encoded) {
     function listen(m, w) {
         if (m.failed !== undefined)
             return drawn_by === 'mine' ? give_up('crashed: ' + m.failed) : say(`${t('This picture cannot move here')}: ${m.failed}`);
+        if (m.told !== undefined) {
+            heard(w, w.only_path);
+            return m.told === asked_paths ? show_told(m) : undefined;
+        }
         heard(w, m.draft !== undefined || (m.done && m.run === run && m.other === 0));
         if (m.draft !== undefined)
             return show_draft(m, w);
@@ -424,7 +429,7 @@ async function bring_to_life(root, name, encoded) {
             set_gamma(gamma_is === 1 ? 0 : 1);
         } else if (key === 'e' || key === 'w') {
             set_exposure(ex.page_exposure() + (key === 'e' ? 0.5 : -0.5));
-        } else if (KEYS[key] || '0123456789,.dlpr[]+-='.includes(key)) {
+        } else if (KEYS[key] || '0123456789,.dlmnpr[]+-='.includes(key)) {
             ex.page_key(KEYS[key] ?? key.charCodeAt(0));
             if (key === 'r')
                 reset();
@@ -478,10 +483,10 @@ async function bring_to_life(root, name, encoded) {
 
     /* ---- the path of a pixel ------------------------------------------------------------------- */
 
-    const at = {x: 0, y: 0, sample: 0};
+    const at = {x: 0, y: 0, sample: 0}, letter = 12;
+    let asked_paths = 0, told = {words: ''};
     function look_at(x, y, sample = 0) {
-        Object.assign(at, {x: Math.min(W - 1, Math.max(0, x)), y: Math.min(H - 1, Math.max(0, y)), sample});
-        ex.page_inspect(at.x, at.y, sample);
+        ex.page_inspect(Math.min(W - 1, Math.max(0, x)), Math.min(H - 1, Math.max(0, y)), sample);
         show_path();
         paint(0);
     }
@@ -492,25 +497,42 @@ async function bring_to_life(root, name, encoded) {
         canvas.focus();
     }
     function show_path() {
+        Object.assign(at, {x: ex.page_x(), y: ex.page_y(), sample: ex.page_sample()});
         root.classList.add('inspecting');
-        plans.forEach(draw_plan);
-        const [head, ...rest] = text(ex.page_words()).split('\n');
-        const [, x, y, sample] = head.match(/pixel (\d+),(\d+), sample (\d+)/).map(Number);
-        Object.assign(at, {x, y, sample});
-        where.textContent = `pixel ${x},${y}, ${t('sample')} ${sample}`;
-        said.textContent = rest.join('\n').trim();
-        if (ex.page_next(seconds()) !== REST)
+        const boxes = plans.map(plan => plan.getBoundingClientRect());
+        const wanted = {...at, letter, sizes: boxes.map(({width, height}) => [width || 150, height || 150])};
+        asked_paths++;
+        if (drawn_by !== 'mine')
+            return show_told(path(wanted));
+        const w = workers[0], also_renders = w.owes; /* it has the reader's code, whose path this is */
+        w.tell({do: 'path', name: 'mine', number: asked_paths, wish: wish_now(), ...wanted});
+        watch(w);
+        w.only_path = !also_renders;
+    }
+    function show_told(answer) {
+        told = answer;
+        plans.forEach((plan, side) => draw_plan(plan, told.plans[side]));
+        const [head, ...rows] = told.table.trim().split('\n');
+        where.textContent = `pixel ${at.x},${at.y}, ${t('sample')} ${at.sample} = ${head.match(/= ([^,]*)/)[1]}`;
+        said.replaceChildren(table_of(rows.map(row => row.split('\t'))));
+        if (ex.page_next(seconds()) !== REST) /* the cross, too */
             paint(0);
     }
-    function draw_plan(plan, side) {
+    /* Each cell begins with the digit of its kind, see demo.h. Columns that say nothing are left out. */
+    function table_of([heads, ...rows]) {
+        const says = heads.map((_, k) => rows.some(row => row[k]?.length > 1));
+        const line = (row, kind, words) => make('tr', {}, ...row.flatMap((cell, k) => says[k] ? [make(k ? kind : 'td',
+            {text: words(cell.slice(1)), class: cell[0] > 0 ? 'of-kind' : false, style: `--c: var(--kind-${cell[0]})`})] : []));
+        return make('table', {}, make('thead', {}, line(heads, 'th', t)), make('tbody', {}, ...rows.map(row => line(row, 'td', x => x))));
+    }
+    function draw_plan(plan, {floats, kinds, labels}) {
         const box = plan.getBoundingClientRect(), density = devicePixelRatio || 1;
         const width = box.width || 150, height = box.height || 150;
         plan.width = width * density;
         plan.height = height * density;
-        const count = ex.page_plan(width, height, side), floats = new Float32Array(memory(ex.page_lines(), 24 * count).slice().buffer);
-        const kinds = new Int32Array(floats.buffer), c = plan.getContext('2d'), colours = getComputedStyle(root);
+        const c = plan.getContext('2d'), colours = getComputedStyle(root);
         c.scale(density, density);
-        for (let i = 0; i < 6 * count; i += 6) {
+        for (let i = 0; i < floats.length; i += 6) {
             c.strokeStyle = colours.getPropertyValue('--kind-' + kinds[i + 5]);
             c.lineWidth = floats[i + 4];
             c.setLineDash(kinds[i + 5] === 6 ? [4, 3] : []);
@@ -518,6 +540,18 @@ async function bring_to_life(root, name, encoded) {
             c.moveTo(floats[i], floats[i + 1]);
             c.lineTo(floats[i + 2], floats[i + 3]);
             c.stroke();
+        }
+        c.font = `${letter}px sans-serif`;
+        c.textAlign = 'center';
+        c.textBaseline = 'middle';
+        for (const {name: english, x, y} of labels) {
+            const name = t(english), half = c.measureText(name).width / 2 + 2;
+            c.globalAlpha = 0.75;
+            c.fillStyle = colours.getPropertyValue('--soft');
+            c.fillRect(x - half, y - letter / 2, 2 * half, letter);
+            c.globalAlpha = 1;
+            c.fillStyle = colours.getPropertyValue('--text');
+            c.fillText(name, x, y);
         }
     }
     function draw_cross() {
@@ -542,7 +576,7 @@ async function bring_to_life(root, name, encoded) {
             make('span', {class: 'whose yours', text: t('yours')}), make('span', {class: 'whose right', text: t('right one')}));
         const views = ['from above', 'from the side'].map(view => make('figure', {},
             make('canvas', {class: 'plan', role: 'img', 'aria-label': `${t('The path')}, ${t(view)}`}), make('figcaption', {text: t(view)})));
-        const said = make('pre', {class: 'words', tabindex: 0, 'aria-label': t('The path in words')}), where = make('span', {'aria-live': 'polite'});
+        const said = make('div', {class: 'words', tabindex: 0, role: 'region', 'aria-label': t('The path in words')}), where = make('span', {'aria-live': 'polite'});
         const button = (text, label, onclick) => make('button', {type: 'button', text, 'aria-label': label ?? false, onclick});
         const legend = make('p', {class: 'legend'}, ...[1, 2, 3, 4, 5, 6, 7, 8].map(kind =>
             make('span', {style: `--c: var(--kind-${kind})`, text: text_of_kind(kind)})));
@@ -682,7 +716,7 @@ async function bring_to_life(root, name, encoded) {
         visible = entries.at(-1).isIntersecting;
         go();
     }, {rootMargin: '200px'}).observe(root);
-    Object.assign(report, {ex, text, images, say_path: () => text(ex.page_explain()), opened: performance.now() - begun});
+    Object.assign(report, {ex, text, images, say_path: () => told.words, opened: performance.now() - begun});
     root.live = report;
 }
 

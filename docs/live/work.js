@@ -29,9 +29,19 @@ function open(module, width, height) {
     if (ex.page_start(width, height) !== 0)
         throw new Error('not enough memory');
     const bytes = (at, size) => new Uint8Array(ex.memory.buffer, at, size);
+    const text = at => { const m = bytes(at); return new TextDecoder().decode(m.subarray(0, m.indexOf(0))); };
     return {
-        ex, bytes,
-        text: at => { const m = bytes(at); return new TextDecoder().decode(m.subarray(0, m.indexOf(0))); },
+        ex, bytes, text,
+        /* The path of a sample: plans of these sizes, from above and from the side; its table; and its words. */
+        path({x, y, sample, letter, sizes}) {
+            ex.page_inspect(x, y, sample);
+            const plans = sizes.map(([width, height], side) => {
+                const count = ex.page_plan(width, height, letter, side), lines = bytes(ex.page_lines(), 24 * count).slice().buffer;
+                const labels = Array.from({length: ex.page_labels()}, (_, i) => ({name: text(ex.page_label(i)), x: ex.page_label_x(i), y: ex.page_label_y(i)}));
+                return {floats: new Float32Array(lines), kinds: new Int32Array(lines), labels};
+            });
+            return {plans, table: text(ex.page_table()), words: text(ex.page_explain())};
+        },
         wish() { const at = ex.page_wish(); return bytes(at, ex.page_wish_size()).slice(); },
         obey(wish) { const at = ex.page_wish(); bytes(at, wish.length).set(wish); ex.page_obey(); },
     };
@@ -143,6 +153,11 @@ function work(post) {
             const start = performance.now(), at = ex.page_finish(m.samples), took = performance.now() - start;
             const pixels = new Uint8ClampedArray(bytes(at, at ? 4 * width * height : 0)); /* none: it is not wanted any more */
             post({k, run: m.run, finished: pixels, samples: m.samples, took, error: at && m.last ? ex.page_finished_error() : -1}, [pixels.buffer]);
+        },
+        path(m) {
+            const {path, obey} = instances[m.name];
+            obey(m.wish);
+            post({k, told: m.number, ...path(m)});
         },
         stop() { job = null; },
     };

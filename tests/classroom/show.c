@@ -22,15 +22,8 @@
 
 static rt_vec3 pixel(const demo_view *view, float x, float y, rt_rng *rng)
 {
-    rt_ray ray = rt_camera_ray(&room_camera, view->width, view->height, x, y);
-    if (STAGE == STAGE_SKY) {
-        const float r1 = rt_random(rng);
-        const float r2 = rt_random(rng);
-        ray = rt_lens_ray(&room_camera, &room_lens, &ray, r1, r2);
-    }
-    return STAGE == STAGE_INDIRECT
-               ? rt_radiance(&scene_indirect, &ray, view->bounces, rng)
-               : rt_radiance_mis(live_scene(STAGE), &ray, view->bounces, rng);
+    const live_context stage = live_stage(STAGE, view);
+    return live_pixel(&stage, x, y, rng);
 }
 
 static rt_status finish(const rt_image *image, int threads, rt_image *result)

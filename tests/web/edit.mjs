@@ -426,6 +426,14 @@ test('the picture by it, beside the right one', async () => {
     const [wrong, expected] = await draw(readFileSync('docs/mistakes/4-acne.c', 'utf8'));
     assert.notEqual(wrong, expected);
     assert.ok(await page.$eval('.live', live => live.classList.contains('mine') && live.nextElementSibling.matches('.edit')));
+    const told = []; // a click tells of the picture by the reader's routine, and not of the right one
+    const box = await page.$eval('.picture', canvas => { const { left, top, width, height } = canvas.getBoundingClientRect(); return { left, top, width, height }; });
+    for (let part = 0.2; part < 0.85; part += 0.05) {
+        await page.mouse.click(box.left + part * box.width, box.top + 0.93 * box.height);
+        await page.waitForFunction(before => document.querySelector('.live').live.say_path() !== before, { timeout: 60000 }, told.at(-1) ?? '');
+        told.push(await page.evaluate(() => document.querySelector('.live').live.say_path()));
+    }
+    assert.ok(told.some(words => /meets the floor[^]*hidden by the floor/.test(words)), told.join('\n'));
     const rt = readFileSync('rt.h', 'utf8');
     const body = /^static inline rt_vec3 rt_leave\([^{;]*\n(\{[^]*?\n\})/m.exec(rt)[1];
     const [good, again] = await draw(`#define rt_leave my_leave\n#include "rt.h"\n${leave}${body}\n`);

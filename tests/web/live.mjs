@@ -412,7 +412,7 @@ tests['a teapot is taken with all its triangles, and they are told'] = async () 
     await done(page, true);
     const first = await hash(page), [x, y] = await place(page, 380, 240);
     await page.mouse.click(x, y);
-    await page.waitForFunction(() => /the teapot, triangle \d+, u 0\.\d+, v 0\.\d+/.test(document.querySelector('.live .words').textContent));
+    await page.waitForFunction(() => /the teapot\s*triangle \d+, u 0\.\d+, v 0\.\d+/.test(document.querySelector('.live .words').textContent));
     await page.evaluate(() => { document.querySelector('.live').live.drafts.length = 0; });
     await anew(page, () => drag(page, [380, 290], [-20, 10], 20, 60)); // the pedestal
     assert.ok(await page.evaluate(() => document.querySelector('.live').live.drafts.length) > 0, 'drafts on the way');
@@ -451,6 +451,8 @@ tests['a click tells what --explain tells'] = async () => {
     }
     const above = await text(page, '.words');
     assert.match(above, /throughput/);
+    const sizes = await page.$$eval('.words tr', list => list.map(row => row.children.length));
+    assert.ok(sizes.length > 1 && sizes.every(size => size === sizes[0] && size > 4), `${sizes}`);
     await button(page, '+');
     assert.match(await text(page, '.inspector .bar span'), /sample 1/);
     assert.notEqual(await text(page, '.words'), above);
