@@ -140,7 +140,7 @@ static void test_no_name_clashes(void **state)
                "static inline rt_vec3 my_reflect(rt_vec3 in, rt_vec3 r)\n"
                "{ return take_vec(rt_sub(in, rt_scale(r, read(2 * rt_dot(in, r))))); }\n"
                "int main(void) { return 1; }\n");
-    expect_run(0, "names.c                       -     -     -     -     -   2/2",
+    expect_run(0, "names.c                      -     -     -     -     -   2/2",
                "grade \"$OLDPWD\"/names.c");
 }
 
@@ -161,7 +161,7 @@ static void test_a_table_of_answers_gets_nothing(void **state)
     for (int seed = 0; seed < 3; seed++) {
         char number[2] = {(char)('0' + seed), '\0'};
         setenv("SEED_TO_TRY", number, 1);
-        expect_run(0, "table.c                       -     -     -     -   0/4",
+        expect_run(0, "table.c                      -     -     -     -   0/4",
                    "grade \"$OLDPWD\"/table.c");
     }
     unsetenv("SEED_TO_TRY");
@@ -197,7 +197,7 @@ static void test_notes_and_names(void **state)
     expect_run(0,
                "a.c, a (2).c: of one student? both are listed|5/5  uses rt__film, "
                "rt__film_of, rt__film_ray\n|"
-               "\nx\\x0ay\\xc2\\x85\\xff\303\251.c     -|"
+               "\nx\\x0ay\\xc2\\x85\\xff\303\251.c        -|"
                "two/old.c: rt_reflect is in a newer file|"
                "\ntwo                          -     -     -     -     -   2/2",
                "grade \"$OLDPWD\"/odd");

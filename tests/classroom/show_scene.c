@@ -1,8 +1,8 @@
 /* A scene of those that are asked ("scene 96601"), rendered by rt.h on the left and by the
  * student's routines on the right; its shapes, as C:
  *
- *     cc -DSCENE=96601 -DSUBMISSION='"yours.h"' -c -o theirs.o show_scene.c
- *     cc -DSCENE=96601 show_scene.c theirs.o submission.o program.a
+ *     cc -DNUMBER=96601 -DSUBMISSION='"yours.h"' -c -o theirs.o show_scene.c
+ *     cc -DNUMBER=96601 show_scene.c theirs.o submission.o program.a
  */
 #ifdef SUBMISSION
 #include SUBMISSION
@@ -71,7 +71,7 @@ static void print_shapes(void)
 
 int main(int argc, char **argv)
 {
-    make_world(&shown, SCENE);
+    make_world(&shown, NUMBER);
     print_shapes();
     return demo_main(argc, argv,
                      &(demo){.name = "scene",
