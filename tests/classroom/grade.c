@@ -550,7 +550,7 @@ static void start_marking(const char *path, marks *m, int number)
     _exit(ferror(stdout) ? 2 : 0);
 }
 
-/* The line that says how far we are; where it is a terminal's, it comes on standard error. */
+/* How far we are: on standard error, for their order is not that of the names. */
 static void tell_progress(const marks *m, int done, int count, double seconds)
 {
     char name[SAFE];
