@@ -103,13 +103,13 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/rt.o $(wildcard tests/*.h) $(HEADERS) $(wil
 
 # --------------------------------------------------------------------------- the classroom
 
-export FILE SEED ONLY OUT
+export FILE SEED ONLY OUT SCENE
 
 starters: ## files to begin with, one for each routine, in build/starters
 	@tests/classroom/starter $(BUILD)/starters
 	@echo "$(BUILD)/starters: copy one, fill it in, then make try FILE=..."
 
-try: $(BUILD)/program.a ## your own routine in place of rt.h's: FILE=my_hit_sphere.c
+try: $(BUILD)/program.a ## your own routine in place of rt.h's: FILE=my_hit_sphere.c SCENE=96601
 	@.ci/deps found '$(CC)' cmocka libcjson
 	@CC='$(CC)' FLAGS='$(FLAGS) $(OPENMP)' LIBS='$(LIBS)' BUILD='$(BUILD)' \
 	    tests/classroom/run try "$$FILE" $(ARGS)

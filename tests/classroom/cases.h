@@ -181,6 +181,33 @@ static void sphere_wall(float *in, int k, uint32_t *state)
     *in = FLT_MAX;
 }
 
+/* A small distance, of any size. */
+static float any_gap(uint32_t *state)
+{
+    return powf(10, between(state, -5, -3.05f));
+}
+
+/* Toward something straight ahead, but not straight on. */
+static rt_vec3 leaning(rt_vec3 ahead, uint32_t *state)
+{
+    return rt_normalize(rt_add(ahead, rt_scale(any_direction(state), 0.7f)));
+}
+
+/* From close to the surface, outside or inside: a hit, however small t is. Who leaves out small t,
+ * in place of an offset where the ray starts, misses it. */
+static void sphere_close(float *in, int k, uint32_t *state)
+{
+    const rt_vec3 center = vec_between(state, -3, 3);
+    const rt_vec3 n = any_direction(state);
+    const float radius = between(state, 0.5f, 3);
+    const float side = k % 2 == 0 ? 1 : -1, gap = any_gap(state);
+    put_vec(&in, center);
+    *in++ = radius;
+    put_vec(&in, rt_add(center, rt_scale(n, radius + side * gap)));
+    put_vec(&in, leaning(rt_scale(n, -side), state));
+    *in = FLT_MAX;
+}
+
 static void spoil(float *in, int first, int count, int k)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY};
@@ -272,6 +299,17 @@ static void box_parallel(float *in, int k, uint32_t *state)
     in[9 + along] = 1;
 }
 
+static void box_close(float *in, int k, uint32_t *state)
+{
+    const int axis = k % 3;
+    const float side = k / 3 % 2 == 0 ? 1 : -1; /* outside, or inside */
+    put_box(in, true, true, 1, state);
+    float *at = in + 9, ahead[3] = {0, 0, 0};
+    in[6 + axis] = in[3 + axis] + side * any_gap(state);
+    ahead[axis] = -side;
+    put_vec(&at, leaning(rt_vec(ahead[0], ahead[1], ahead[2]), state));
+}
+
 static void box_bad(float *in, int k, uint32_t *state)
 {
     box_hit(in, k, state);
@@ -353,6 +391,11 @@ static void triangle_miss(float *in, int k, uint32_t *state)
 static void triangle_behind(float *in, int k, uint32_t *state)
 {
     put_triangle(in, 2, k % 2 != 0, true, (range){-9, -1}, one, FLT_MAX, state);
+}
+
+static void triangle_close(float *in, int k, uint32_t *state)
+{
+    put_triangle(in, 2, k % 2 != 0, true, (range){5e-5f, 9e-4f}, one, FLT_MAX, state);
 }
 
 static void triangle_limit(float *in, int k, uint32_t *state)
@@ -469,6 +512,22 @@ static void world_point(float *in, int k, uint32_t *state)
     put_vec(&in, hit.point);
     put_vec(&in, hit.normal);
     put_vec(&in, vec_between(state, -6, 6));
+}
+
+/* From close to a surface, toward it; not the floor, of which float knows less. */
+static void world_close(float *in, int k, uint32_t *state)
+{
+    do
+        world_point(in, k, state);
+    while (in[2] < -6.5f);
+    const float *at = in + 1;
+    float *to = in + 1;
+    const rt_vec3 point = take_vec(&at), normal = take_vec(&at);
+    const float gap = any_gap(state);
+    put_vec(&to, rt_add(point, rt_scale(normal, gap)));
+    put_vec(&to, leaning(rt_scale(normal, -1), state));
+    *to =
+        k % 2 == 0 ? 1 : 0.25f * gap; /* rt_occluded: beyond the surface, or before it */
 }
 
 /* Seen for sure: nothing near the way to the light. */
@@ -617,16 +676,14 @@ static void leave_below(float *in, int k, uint32_t *state)
 
 static void encode_between(float *in, int k, uint32_t *state)
 {
-    (void)state;
-    in[0] = (float)k / (CASES - 1);
+    in[0] = ((float)k + between(state, 0, 1)) / CASES;
     in[1] = 2.2f;
 }
 
 static void encode_linear(float *in, int k, uint32_t *state)
 {
-    (void)state;
-    in[0] = (float)k / (CASES - 1);
-    in[1] = k % 2 == 0 ? 1 : 1.8f;
+    encode_between(in, k, state);
+    in[1] = k % 2 == 0 ? 1 : between(state, 1.2f, 3);
 }
 
 static void encode_outside(float *in, int k, uint32_t *state)
@@ -637,8 +694,7 @@ static void encode_outside(float *in, int k, uint32_t *state)
 
 static void encode_bad(float *in, int k, uint32_t *state)
 {
-    encode_between(in, k, state);
-    in[0] = 0.5f;
+    encode_linear(in, 1, state);
     spoil(in, 0, 1, k);
 }
 
@@ -1471,11 +1527,13 @@ static const kind kinds[] = {
     {"rt_hit_sphere", "passes by", sphere_miss, NULL, 0},
     {"rt_hit_sphere", "the sphere is behind", sphere_behind, NULL, 0},
     {"rt_hit_sphere", "from inside", sphere_inside, NULL, 0},
+    {"rt_hit_sphere", "from close to the surface", sphere_close, NULL, 0},
     {"rt_hit_sphere", "t_max before or after the hit", sphere_limit, NULL, 0},
     {"rt_hit_sphere", "a wall of radius 1e5", sphere_wall, NULL, 0},
     {"rt_hit_sphere", "no direction, NaN, infinity", sphere_bad, NULL, 0},
     {"rt_intersect", "the nearest of eight shapes", world_ray, NULL, 0},
     {"rt_intersect", "nothing there", world_sky, NULL, 0},
+    {"rt_intersect", "from close to a surface", world_close, NULL, 0},
     {"rt_lambert", "a light straight above, at distance 1", lambert_above, NULL, 0},
     {"rt_lambert", "at any angle", lambert_angle, NULL, 0},
     {"rt_lambert", "at any distance", lambert_far, NULL, 0},
@@ -1485,6 +1543,7 @@ static const kind kinds[] = {
     {"rt_hit_box", "passes by", box_miss, NULL, 0},
     {"rt_hit_box", "the box is behind", box_behind, NULL, 0},
     {"rt_hit_box", "from inside", box_inside, NULL, 0},
+    {"rt_hit_box", "from close to the surface", box_close, NULL, 0},
     {"rt_hit_box", "t_max before or after the hit", box_limit, NULL, 0},
     {"rt_hit_box", "along an axis", box_parallel, NULL, 0},
     {"rt_hit_box", "no direction, NaN, infinity", box_bad, NULL, 0},
@@ -1492,6 +1551,7 @@ static const kind kinds[] = {
     {"rt_leave", "through the surface", leave_below, judge_leave, 0},
     {"rt_occluded", "something in between, or beyond t_max", world_limit, NULL, 0},
     {"rt_occluded", "nothing there", world_sky, NULL, 0},
+    {"rt_occluded", "from close to a surface", world_close, NULL, 0},
     {"rt_visible", "lights seen, and lights hidden", visible_or_not, NULL, 0},
     {"rt_visible", "lights in front of something", visible_before, NULL, 0},
     {"rt_direct", "one light or two", direct_lights, NULL, 0},
@@ -1547,6 +1607,7 @@ static const kind kinds[] = {
     {"rt_lens_ray", "radius 0: the pinhole's ray", lens_pinhole, NULL, 0},
     {"rt_hit_triangle", "hits from outside", triangle_hit, NULL, 0},
     {"rt_hit_triangle", "hits from inside", triangle_back, NULL, 0},
+    {"rt_hit_triangle", "from close to it", triangle_close, NULL, 0},
     {"rt_hit_triangle", "directions of any length", triangle_long, NULL, 0},
     {"rt_hit_triangle", "small triangles", triangle_small, NULL, 0},
     {"rt_hit_triangle", "passes by", triangle_miss, NULL, 0},

@@ -31,7 +31,7 @@ typedef struct task {
     bool talks;    /* what it prints is shown; else it goes to the file log, if any */
     const char *log;
     double seconds;
-    const char *in; /* what it reads */
+    const char *in; /* what it reads, if anything */
     size_t in_size;
     char *out; /* what it answers, on channel 3 */
     size_t out_size;
@@ -125,7 +125,7 @@ static inline void become(const task *t, int in, int out)
     const int log = t->log ? open(t->log, O_WRONLY | O_CREAT | O_TRUNC, 0600) : null;
     setsid();
     dup2(out, 63); /* out of the way */
-    dup2(in, 0);
+    dup2(t->in ? in : null, 0);
     if (!t->talks) {
         dup2(log, 1);
         dup2(log, 2);
@@ -135,8 +135,8 @@ static inline void become(const task *t, int in, int out)
         close(i);
     limit(RLIMIT_CPU, (unsigned long long)t->seconds + 1);
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_AS, t->confined ? 1ull << 30 : 4ull << 30);
-    limit(RLIMIT_FSIZE, t->confined && !t->talks ? 0 : 64ull << 20);
+    limit(RLIMIT_AS, t->confined ? 1ull << 30 : 2ull << 30);
+    limit(RLIMIT_FSIZE, t->confined && !t->talks ? 0 : 16ull << 20);
     if (t->confined)
         confine();
     execvp(t->argv[0], t->argv);
