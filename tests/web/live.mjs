@@ -116,7 +116,7 @@ const BALL = [155, 225]; // of the picture at first
 
 for (const demo of chapters)
     tests[`${demo} has the bytes of the program`] = async () => {
-        const page = await open(demo, { size: [480, 360] });
+        const page = await open(demo);
         await done(page, demo >= 'demo10'); // from there on it is finished, too
         assert.equal(await hash(page), await nativeHash(page, demo));
     };
