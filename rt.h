@@ -4838,17 +4838,17 @@ static inline bool rt__count_samples(rt__team *team)
 /* How much of what rt_render was called for is done, 0 to 1. */
 static inline float rt__part(rt__team *team, double now)
 {
-    const float limit = team->job->options.seconds;
+    const double limit = (double)team->job->options.seconds;
     rt__lock(&team->queue);
     const rt__task *last = &team->last;
     const double samples =
         last->from + (last->to - last->from) * (last->chunk + 0.5) / team->chunks;
     rt__unlock(&team->queue);
-    float part = (float)((samples - team->begun) / team->wanted);
-    part = part > team->part_of_error ? part : team->part_of_error;
-    if (limit > 0.0f && (float)(now - team->start) / limit > part)
-        part = (float)(now - team->start) / limit;
-    return part < 0.0f ? 0.0f : part < 1.0f ? part : 1.0f;
+    double part = (samples - team->begun) / team->wanted;
+    part = part > (double)team->part_of_error ? part : (double)team->part_of_error;
+    if (limit > 0.0 && (now - team->start) / limit > part)
+        part = (now - team->start) / limit;
+    return part < 0.0 ? 0.0f : part < 1.0 ? (float)part : 1.0f;
 }
 
 /* Now and then the thread that called rt_render looks up from its work. Is time up, and
