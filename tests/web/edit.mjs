@@ -174,7 +174,7 @@ test('the server ends meanwhile', async () => {
     missing = /^$/;
     await press(page, 'compile and try');
     await finished(page);
-    assert.match(await text(page, '.edit-status'), /0 of 8 right/);
+    assert.match(await text(page, '.edit-status'), /0 of 9 right/);
     assert.ok(complaints.splice(0).every(words => /404/.test(words)));
     await context.close();
 });
@@ -185,9 +185,9 @@ test('right and wrong answers', async () => {
     let said = await attempt(page, copied);
     assert.match(said.verdict, /8 of 9 kinds of input right/);
     assert.match(said.verdict, /WRONG {2}no direction, NaN, infinity\n +input \d+ of 200: center .*\n +yours: hit .*\n +right: hit 0/);
-    assert.match(said.status, /7 of 8 right/);
+    assert.match(said.status, /8 of 9 right/);
     said = await attempt(page, right);
-    assert.match(said.verdict, /all right: 8 of 8/);
+    assert.match(said.verdict, /all right: 9 of 9/);
     const events = await page.evaluate(() => window.events);
     assert.deepEqual(events.at(-1)[0], 'rt_hit_sphere');
     assert.ok(events.at(-1)[1] > 1000 && events.at(-1)[2]);
@@ -344,7 +344,7 @@ test('by the keys alone', async () => {
     await page.keyboard.up('Control');
     assert.match(await text(page, '.edit-status'), /compiling/);
     await finished(page);
-    assert.match(await text(page, '.edit-status'), /7 of 8/);
+    assert.match(await text(page, '.edit-status'), /8 of 9/);
     await page.keyboard.type('// by itself');
     await page.waitForFunction(() => /compiling/.test(document.querySelector('.edit-status').textContent));
     await finished(page);
