@@ -304,7 +304,7 @@ def test_the_keys_of_the_help_on_every_keyboard(display):
         for keys, pattern in expected_words:
             keyboard.press(keys)
             try:
-                window.wait(pattern, 5)
+                window.wait(pattern)
             except AssertionError as error:
                 raise AssertionError("%s, key %s: %s" % (layout, keys, error)) from None
         if layout in ("fr", "de"):  # where letters are elsewhere
