@@ -632,7 +632,7 @@ static void handle_key_up(window *w, viewer *v, SDL_Scancode place)
  * systems. */
 static void handle_text(window *w, viewer *v, const char *text)
 {
-    const int held = SDL_GetModState();
+    const SDL_Keymod held = SDL_GetModState();
     const bool alt_gr = (held & (KMOD_RALT | KMOD_MODE)) != 0;
     if ((held & KMOD_GUI) != 0 || ((held & (KMOD_CTRL | KMOD_LALT)) != 0 && !alt_gr))
         return;
