@@ -1505,6 +1505,15 @@ static bool go_on(void *user, float part)
     return part >= 0;
 }
 
+/* Only the first pixel takes long: this many times 1e-40 s is more than a float can hold. */
+static rt_vec3 late_pixel(const void *user, float x, float y, rt_rng *rng)
+{
+    (void)user, (void)rng;
+    if (x < 1 && y < 1)
+        nanosleep(&(struct timespec){0, 60000000}, NULL);
+    return rt_vec(0, 0, 0);
+}
+
 static void check_traps_of_stops(void)
 {
     /* an error of a black picture, and errors and seconds that are very large or small */
@@ -1525,6 +1534,10 @@ static void check_traps_of_stops(void)
         rt_image_error(&image);
         rt_encode(image.pixels[0].x, 2.2);
     }
+    rt_image image = small_image(32, 24, trap_pixels);
+    const rt_options late = {
+        .samples = 1, .seconds = 1e-40f, .threads = 1, .progress = go_on};
+    assert_int_equal(rt_render_pixels(late_pixel, NULL, &late, &image), RT_OK);
 }
 
 static void check_trapped(void (*check)(void))
