@@ -82,7 +82,8 @@ $(PROGRAM): $(BUILD)/%.o: demos/%.c $(HEADERS)
 
 # ---------------------------------------------------------------------------- the tests
 
-USERS = tests/compile/run # what users' builds may do
+# What users' builds may do; "make check" leaves it out where it has been run already.
+USERS    = tests/compile/run
 
 test: $(TESTS:%=$(BUILD)/tests/%) $(BUILD)/tests/render_scene $(DEMOS:%=$(BUILD)/%) ## run the tests (seconds)
 	@CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' tests/run $(TESTS:%=$(BUILD)/tests/%) $(USERS)

@@ -86,7 +86,7 @@ static rt_vec3 live_unshadowed(const live_context *c, const rt_hit *hit)
     return live_add(c, sent);
 }
 
-/* The sample of every stage. Those of chapters 1 to 6 stop one question later each. */
+/* The sample of every stage. Each of chapters 1 to 6 asks one question more than the last. */
 static rt_vec3 live_pixel(const void *context, float x, float y, rt_rng *rng)
 {
     const live_context *c = context;

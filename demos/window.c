@@ -97,7 +97,7 @@ static void close_font(void)
         TTF_Quit();
 }
 
-/* So large are letters from now on. (To be told the same again, SDL2_ttf would forget them.) */
+/* The size of letters from now on. (SDL2_ttf empties its cache even if the size is the same.) */
 static void set_letter(int letter)
 {
     static int now;
@@ -211,7 +211,7 @@ static void draw_line(const window *w, const viewer_line *l)
     SDL_RenderGeometry(w->renderer, NULL, points, 2 * ACROSS, corners, count);
 }
 
-/* The square that stands before words of this kind; the width that it takes. */
+/* Draw the square that stands before words of this kind; returns its width. */
 static int draw_mark(const window *w, int letter, int x, int y, demo_kind kind)
 {
     const SDL_Color c = line_colours[kind];
@@ -266,7 +266,7 @@ static void widen(window *w, const viewer *v)
 
 /* ---- the path of a pixel ------------------------------------------------------------ */
 
-/* The names of the lines, in as many rows as they need; the height that they take. */
+/* Draw the names of the lines, in as many rows as they need; returns the height of these. */
 static int draw_legend(const window *w, const viewer *v)
 {
     const int letter = w->letter, height = line_height(letter);
@@ -318,7 +318,7 @@ typedef struct table {
     int widths[DEMO_COLUMNS];              /* 0: the column is not shown */
 } table;
 
-/* Where a word ends, the next begins; the text is cut up for it. */
+/* Cut off and return what comes before the next `end`. */
 static char *next_part(char **text, char end)
 {
     char *part = *text, *stop = strchr(part, end);
@@ -342,7 +342,7 @@ static demo_kind cell_kind(const char *cell)
     return (demo_kind)(*cell - '0');
 }
 
-/* As wide as each column must be, and all of them together. What says nothing is left out. */
+/* Find the width of each column; returns that of the table. A column that says nothing has 0. */
 static int measure(table *t)
 {
     int sum = t->letter;
@@ -361,15 +361,15 @@ static int measure(table *t)
     return sum;
 }
 
-/* So many rows of the table fit below the line that says which sample it is. */
+/* How many rows of the table fit below the line that says which sample it is. */
 static int rows_that_fit(const window *w, const table *t)
 {
     const int height = line_height(t->letter);
     return (4 * w->table.h - 5 * height) / (4 * height);
 }
 
-/* The letters as large as the place allows: smaller for more rows, but not much; and for all
- * columns. Where the smallest are too large, there are fewer columns. */
+/* Make the letters smaller until all columns fit, and, down to 3/4, until all rows do. If the
+ * smallest are still too large, drop columns. */
 static void arrange(const window *w, table *t)
 {
     const int width = w->table.w, least = w->letter * 3 / 4;
@@ -389,7 +389,7 @@ static void arrange(const window *w, table *t)
     }
 }
 
-/* Numbers end below each other, words begin there. */
+/* Numbers are aligned on the right, words on the left. */
 static bool is_number(int column)
 {
     return column == COLUMN_T || column == COLUMN_NORMAL || column == COLUMN_THROUGHPUT ||

@@ -54,9 +54,9 @@ typedef struct marks {
     pid_t marker; /* the process that marks it now */
 } marks;
 
-/* ---- what others wrote, so that it does nothing to a terminal or a table ----------------- */
+/* ---- others' words, made safe for a terminal and a table -------------------------------- */
 
-/* Is it seen, and as what it is? Not what turns the direction of writing. */
+/* Does it show, and leave the direction of writing alone? */
 static bool visible(wchar_t c)
 {
     return wcwidth(c) >= 0 && c != 0xad && c != 0x61c && c != 0x180e && c != 0xfeff &&
@@ -95,7 +95,7 @@ static int make_safe(char *to, size_t size, const char *from)
 
 static double all_end; /* of the time for this submission */
 
-/* So many seconds, or what is left of the submission's. */
+/* This many seconds, or what is left of the submission's time. */
 static double at_most(double seconds)
 {
     const double left = all_end - clock_seconds();
@@ -550,7 +550,7 @@ static void start_marking(const char *path, marks *m, int number)
     _exit(ferror(stdout) ? 2 : 0);
 }
 
-/* How far we are: on standard error, for their order is not that of the names. */
+/* One line for each that is done, on standard error: they do not come in the order of their names. */
 static void tell_progress(const marks *m, int done, int count, double seconds)
 {
     char name[SAFE];
@@ -561,6 +561,13 @@ static void tell_progress(const marks *m, int done, int count, double seconds)
     if (done < count)
         fprintf(stderr, ", about %.0f s left", seconds / done * (count - done));
     fprintf(stderr, "\n");
+}
+
+static void tell_unmarked(const marks *m)
+{
+    char name[SAFE];
+    make_safe(name, sizeof name, m->name);
+    fprintf(stderr, "grade: could not mark %s\n", name);
 }
 
 /* Mark all; as many at a time as there are cores. */
@@ -588,7 +595,7 @@ static void mark_all(const char *const *paths, marks *m, int count)
             if (m[i].done)
                 tell_progress(&m[i], ++done, count, clock_seconds() - start);
             else if (!stopped)
-                fprintf(stderr, "grade: could not mark %s\n", m[i].name);
+                tell_unmarked(&m[i]);
         }
         nanosleep(&(struct timespec){0, 5000000}, NULL);
     }
@@ -815,12 +822,19 @@ static bool parse(int argc, char **argv, const char **path)
     return true;
 }
 
-/* The name without .c; and without a number of its own: "anna (2)", "anna_2", "anna-2". */
-static size_t stem(const char *name, bool numbers, bool *copy)
+/* The length of a name without .c. */
+static size_t bare(const char *name)
 {
-    const size_t n = strlen(name) - (has_ending(name) ? 2 : 0);
+    return strlen(name) - (has_ending(name) ? 2 : 0);
+}
+
+/* The same without a number of its own: "anna (2)", "anna_2", "anna-2". Is that number in brackets,
+ * as a browser gives it to a copy? */
+static size_t stem(const char *name, bool *copy)
+{
+    const size_t n = bare(name);
     size_t end = n;
-    *copy = n > 0 && name[n - 1] == ')'; /* what a browser adds to a copy */
+    *copy = n > 0 && name[n - 1] == ')';
     end -= *copy ? 1 : 0;
     while (end > 0 && isdigit((unsigned char)name[end - 1]))
         end--;
@@ -831,22 +845,20 @@ static size_t stem(const char *name, bool numbers, bool *copy)
     const size_t digits = end;
     while (end > 0 && strchr(" _-", name[end - 1]))
         end--;
-    return numbers || end == 0 || digits == n || (!*copy && end == digits) ? n : end;
+    return end == 0 || digits == n || (!*copy && end == digits) ? n : end;
 }
 
-/* Files that look as if one student had handed in both: nobody but the teacher can know. */
+/* Files that look as if one student had handed in both: only the teacher can know. */
 static void tell_doubles(const marks *m, int count)
 {
     for (int i = 0; i < count; i++)
         for (int k = 0; k < count; k++) {
-            bool copy[2];
-            const size_t a = stem(m[i].name, false, &copy[0]);
-            const size_t b = stem(m[k].name, true, &copy[1]);
-            const size_t c = stem(m[k].name, false, &copy[1]);
-            const bool plain = a == b && strncmp(m[i].name, m[k].name, a) == 0;
-            const bool both = copy[0] && copy[1] && a == c && k < i &&
-                              strncmp(m[i].name, m[k].name, a) == 0;
-            if (i == k || !(plain || both))
+            bool copy, other_copy;
+            const size_t n = stem(m[i].name, &copy), other = stem(m[k].name, &other_copy);
+            const bool original = n == bare(m[k].name);
+            const bool two_copies = k < i && copy && other_copy && n == other;
+            if (i == k || !(original || two_copies) ||
+                strncmp(m[i].name, m[k].name, n) != 0)
                 continue;
             char first[SAFE], second[SAFE];
             make_safe(first, sizeof first, m[k].name);
