@@ -129,9 +129,9 @@ class Window:
         with open(self.out, "rb") as file:
             return file.read(), self.said()
 
-    def screen(self):
-        """What is on the screen: width, height, rows of RGB bytes."""
-        time.sleep(0.3)
+    def screen(self, rest=0.3):
+        """What is on the screen after a rest: width, height, rows of RGB bytes."""
+        time.sleep(rest)
         dump = subprocess.run(["xwd", "-silent", "-id", self.id], env=self.env,
                               stdout=subprocess.PIPE, check=True).stdout
         head = struct.unpack(">25I", dump[:100])
@@ -765,21 +765,23 @@ def write_png(path, screen):
 
 
 def pictures(display, folder):
-    """For docs/window.md; each the same in each run."""
+    """For docs/window.md; each the same in each run, on a busy machine, too."""
+    def save(name):
+        write_png("%s/%s.png" % (folder, name), window.screen(rest=1.5))
     window = Window(display, "demo08", "--samples", "64")
     window.wait("64 samples")
     window.move(600, 20)
     window.key("h")
-    write_png(folder + "/window-help.png", window.screen())
+    save("window-help")
     window.key("h")
     window.click(170, 300)
-    write_png(folder + "/window-above.png", window.screen())
+    save("window-above")
     window.key("v")
     window.move(330, 250)
-    write_png(folder + "/window-side.png", window.screen())
+    save("window-side")
     window.key("i", "z")
     window.move(300, 390)
-    write_png(folder + "/window-glass.png", window.screen())
+    save("window-glass")
     window.end()
     window = Window(display, "demo07", "--samples", "16", "--sampler", "sobol")
     window.wait("16 samples")
@@ -788,7 +790,7 @@ def pictures(display, folder):
         window.key("Left")
     window.key("Prior", "Prior")
     window.wait(", 16 samples, error", 60)
-    write_png(folder + "/window-moved.png", window.screen())
+    save("window-moved")
     window.end()
 
 
