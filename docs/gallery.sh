@@ -38,7 +38,7 @@ red() { # NAME FILE: the first test of its chapter that goes red on it
     $cc -std=c99 -O1 -ffp-contract=off -w -I. -include "$2" -o "$work/$1.test" "tests/$test.c" \
         $(pkg-config --cflags --libs cmocka libcjson) -lm || return
     timeout 100 "$work/$1.test" 2>&1 |
-        sed -n "s/^\[  FAILED  \] \(test_[a-z0-9_]*\).*/\`\1\` in \`tests\/$test.c\`/p" | head -1
+        sed -n "/^\[  FAILED  \] test_/{s/^[^t]*\(test_[a-z0-9_]*\).*/\`\1\` in \`tests\/$test.c\`/p;q;}"
 }
 
 one() { # FILE: render it, and write its part of the page

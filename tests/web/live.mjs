@@ -357,7 +357,7 @@ tests['chapter 10: d and g change the finished picture, and back'] = async () =>
 };
 
 tests['part two: its pictures, on keys and to choose'] = async () => {
-    const page = await open('demo15');
+    const page = await open('demo15', { size: [120, 90] });
     await done(page, true);
     for (const [stage, demo] of [[8, 'demo11'], [9, 'demo12'], [10, 'demo13'], [13, 'demo16'], [14, 'demo17'], [11, 'demo14']]) {
         await page.click(`.stages label:nth-of-type(${stage})`);
