@@ -204,6 +204,59 @@ static void test_notes_and_names(void **state)
     assert_null(strstr(said, "rt__none"));
 }
 
+/* A copy of a right answer, with more at its end, in the folder "more". */
+static void write_with(const char *name, const char *text)
+{
+    char line[200];
+    snprintf(line, sizeof line,
+             "mkdir -p more && cp \"$TOP\"/tests/classroom/submissions/jon.c more/%s.c",
+             name);
+    assert_int_equal(run(line), 0);
+    snprintf(line, sizeof line, "more/%s.c", name);
+    FILE *file = fopen(line, "a");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* What uses private names, but hides it. */
+static void test_hidden_names_are_told(void **state)
+{
+    (void)state;
+    write_with("a", "rt_ray look(const rt__film *, float, float)\n"
+                    "    __attribute__((alias(\"rt__film_ray\")));\n");
+    write_with("b", "# 1 \"rt.h\" 1\ntypedef rt__film hidden;\n");
+    write_with("c", "/*\n*/ # \\\n/\\ \n* x */ 1 \"rt.h\" 1\ntypedef rt__film hidden;\n");
+    write_with("d", "__asm__(\"nop\");\n");
+    write_with("e", "/* Exercise #3:\n * # 1 \"rt.h\" */ // # 1 \"rt.h\"\n#line 9\n");
+    expect_run(0,
+               "2/2  uses rt__film, rt__film_ray\nb.c|2/2  uses a line marker\nc.c|"
+               "2/2  uses a line marker\nd.c|2/2  uses __asm__\ne.c|2/2\nwrote",
+               "grade \"$OLDPWD\"/more");
+    assert_int_equal(run("rm -r more"), 0);
+}
+
+/* What does not compile, assemble or link is told why. */
+static void test_why_it_does_not_compile(void **state)
+{
+    (void)state;
+    write_with("links",
+               "double nowhere(int x);\ndouble use(void) { return nowhere(1); }\n");
+    write_with("assembles", "__asm__(\"no_such_thing\");\n");
+    write_with("compiles", "#include __FILE__\n");
+    expect_run(0,
+               "links.c: does not compile\n         undefined reference to `nowhere|"
+               "assembles.c: does not compile\n|no such instruction: `no_such_thing'|"
+               "compiles.c: does not compile\n         submission.c:6",
+               "grade \"$OLDPWD\"/more");
+    assert_int_equal(run("rm -r more; sed '/define rt_reflect/d; "
+                         "$a #define rt_reflect my_reflect' "
+                         "\"$TOP\"/tests/classroom/submissions/jon.c >late.c"),
+                     0);
+    expect_run(0, "late.c: #define rt_... must come before #include",
+               "grade \"$OLDPWD\"/late.c");
+}
+
 /* Ctrl-C leaves what is done so far. */
 static void test_stopped(void **state)
 {
@@ -246,6 +299,8 @@ int main(void)
         cmocka_unit_test(test_a_table_of_answers_gets_nothing),
         cmocka_unit_test(test_small_t_counts),
         cmocka_unit_test(test_notes_and_names),
+        cmocka_unit_test(test_hidden_names_are_told),
+        cmocka_unit_test(test_why_it_does_not_compile),
         cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_what_cannot_be_marked),
     };

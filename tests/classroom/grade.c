@@ -164,8 +164,57 @@ static void write_made(const char *name, const char *bytes, size_t size)
     }
 }
 
+/* Add to a list with commas, once; dots when it is full. */
+static void add_note(char *note, size_t size, const char *text)
+{
+    const size_t n = strlen(note);
+    if (strstr(note, text) || (n > 3 && strcmp(note + n - 3, "...") == 0))
+        return;
+    if (n + strlen(text) + 8 > size)
+        text = "...";
+    snprintf(note + n, size - n, "%s%s", n > 0 ? ", " : "", text);
+}
+
+static const char *skip_blanks(const char *at)
+{
+    for (;;) {
+        const char *const end = strncmp(at, "/*", 2) == 0 ? strstr(at + 2, "*/") : NULL;
+        if (end)
+            at = end + 2;
+        else if (*at && strchr(" \t\v\f\r", *at))
+            at++;
+        else
+            return at;
+    }
+}
+
+/* Is there a line like # 1 "rt.h" 1? To the compiler, what follows it is in that file, so
+ * read_preprocessed() would not know whose it is. The text is changed: a line that goes on with \
+ * becomes one. */
+static bool has_line_marker(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from;) {
+        const size_t blanks = *from == '\\' ? strspn(from + 1, " \t\v\f\r") : 0;
+        if (*from == '\\' && from[1 + blanks] == '\n')
+            from += 2 + blanks;
+        else
+            *to++ = *from++;
+    }
+    *to = '\0';
+    for (const char *line = text; line; line = strchr(line, '\n')) {
+        line += *line == '\n' ? 1 : 0;
+        const char *at = skip_blanks(line);
+        const size_t sign = *at == '#' ? 1 : strncmp(at, "%:", 2) == 0 ? 2 : 0;
+        if (sign > 0 && isdigit((unsigned char)*skip_blanks(at + sign)))
+            return true;
+    }
+    return false;
+}
+
 /* The file becomes submission.c, unless it is no text of a sensible size; why says why. */
-static bool copy_file(const char *from, char *why, size_t size)
+static bool copy_file(const char *from, char *note, size_t note_size, char *why,
+                      size_t size)
 {
     static char bytes[LARGEST + 1];
     struct stat info;
@@ -184,20 +233,35 @@ static bool copy_file(const char *from, char *why, size_t size)
         return snprintf(why, size, "%s", n == 0 ? "empty" : "larger than a megabyte"),
                false;
     write_made("submission.c", bytes, n);
+    for (size_t i = 0; i < n; i++)
+        bytes[i] = bytes[i] ? bytes[i] : ' '; /* as the compiler reads it */
+    bytes[n] = '\0';
+    if (has_line_marker(bytes))
+        add_note(note, note_size, "a line marker");
     return true;
 }
 
+/* The first lines that say what is wrong, without the folders before names, and without those that
+ * only lead there. */
 static void show_log(void)
 {
-    char line[160], safe[SAFE];
+    char line[400], shown[160], before[160] = "", safe[SAFE];
     FILE *file = fopen(made("log"), "r");
-    for (int n = 0; file && n < 6 && fgets(line, sizeof line, file); n++) {
+    for (int n = 0; file && n < 6 && fgets(line, sizeof line, file);) {
         line[strcspn(line, "\n")] = '\0';
-        const char *at = strstr(line, "submission.c"); /* without the folders before it */
-        if (at && line[0] != ' ')
-            memmove(line, at, strlen(at) + 1);
-        make_safe(safe, sizeof safe, line);
+        const char *const own = strstr(line, "submission.c");
+        const char *const link = strstr(line, "undefined reference");
+        snprintf(shown, sizeof shown, "%s",
+                 link                    ? link
+                 : own && line[0] != ' ' ? own
+                                         : line);
+        if (strstr(line, "included from ") || strstr(line, "   from ") ||
+            strstr(line, ": in function") || strcmp(shown, before) == 0)
+            continue;
+        snprintf(before, sizeof before, "%s", shown);
+        make_safe(safe, sizeof safe, shown);
         printf("         %s\n", safe);
+        n++;
     }
     if (file)
         fclose(file);
@@ -215,36 +279,20 @@ static bool build(const char *command, char *why, size_t size)
     return run_task(&t, why, size);
 }
 
-/* Add to a list with commas, once; dots when it is full. */
-static void add_note(char *note, size_t size, const char *text)
-{
-    const size_t n = strlen(note);
-    if (strstr(note, text) || (n > 3 && strcmp(note + n - 3, "...") == 0))
-        return;
-    if (n + strlen(text) + 8 > size)
-        text = "...";
-    snprintf(note + n, size - n, "%s%s", n > 0 ? ", " : "", text);
-}
-
-/* Private names of rt.h that a line uses, outside of "..." and '...'. */
+/* What a teacher should know of a line: private names of rt.h, also in "...", where alias("rt__...")
+ * has them; assembly, which may hide anything. */
 static void find_private(const char *line, char *note, size_t size)
 {
-    char quote = 0, name[60];
-    for (const char *at = line; *at; at++) {
+    char name[60];
+    for (const char *at = line; *at;) {
         size_t n = 0;
-        if (quote) {
-            at += *at == '\\' && at[1];
-            quote = *at == quote ? 0 : quote;
-        } else if (*at == '"' || *at == '\'') {
-            quote = *at;
-        } else if (isalnum((unsigned char)*at) || *at == '_') {
-            while (isalnum((unsigned char)at[n]) || at[n] == '_')
-                n++;
-            snprintf(name, sizeof name, "%.*s", (int)n, at);
-            if (strncmp(name, "rt__", 4) == 0)
-                add_note(note, size, name);
-            at += n - 1;
-        }
+        while (isalnum((unsigned char)at[n]) || at[n] == '_')
+            n++;
+        snprintf(name, sizeof name, "%.*s", (int)n, at);
+        if (strncmp(name, "rt__", 4) == 0 || strcmp(name, "asm") == 0 ||
+            strcmp(name, "__asm") == 0 || strcmp(name, "__asm__") == 0)
+            add_note(note, size, name);
+        at += n > 0 ? n : 1;
     }
 }
 
@@ -322,14 +370,17 @@ static void write_student(const bool *found)
     write_made("student.c", text, n);
 }
 
+#define TO_OBJECT "$CC -O1 -ffp-contract=off -w -I. -c -o"
+#define ALONE TO_OBJECT " \"$W/alone.o\" \"$W/submission.c\""
+#define WITH_POINTERS TO_OBJECT " \"$W/submission.o\" \"$W/student.c\""
 /* None of the student's names but the pointers are seen by the program that it is linked with: not
  * their main, and no function that is called like one of the C library's. */
-#define COMPILE                                                                          \
-    "$CC -O1 -ffp-contract=off -w -I. -c -o \"$W/submission.o\" \"$W/student.c\" && "    \
+#define LINK                                                                             \
     "objcopy -w -G 'rt__yours_*' \"$W/submission.o\" && "                                \
     "$CC " STATIC " -o \"$W/pupil\" \"$PUPIL\" \"$W/submission.o\" -lm"
+#define COMPILE WITH_POINTERS " && " LINK
 #define PREPROCESS "exec $CC -E -dD -I. \"$W/submission.c\""
-#define CHECK "exec $CC -fsyntax-only -I. \"$W/submission.c\""
+#define WARN "exec $CC -fsyntax-only -Wall -I. \"$W/submission.c\""
 
 static void say(const char *who, const char *format, ...)
 {
@@ -341,17 +392,21 @@ static void say(const char *who, const char *format, ...)
     va_end(rest);
 }
 
-/* Why it does not compile: in the compiler's words, or it was the time or the size. */
+/* Why it does not compile: in the words of the compiler, the assembler or the linker, or it was the
+ * time or the size. */
 static void tell_errors(const char *who, const char *why)
 {
     char again[200];
     const bool told = strncmp(why, "it ended by itself", 18) == 0;
-    if (told && build(CHECK " -w", again, sizeof again)) {
+    const bool alone = told && build(ALONE, again, sizeof again);
+    if (alone && !build(WITH_POINTERS, again, sizeof again)) {
         say(who,
             "#define rt_... must come before #include \"rt.h\", and name a function of "
             "yours");
         return;
     }
+    if (alone)
+        build(LINK, again, sizeof again);
     say(who, "does not compile%s%s", told ? "" : ": ", told ? "" : why);
     if (told)
         show_log();
@@ -365,7 +420,7 @@ static bool compile(const char *who, const bool *found)
     write_yours(found);
     if (!build(COMPILE, why, sizeof why))
         return tell_errors(who, why), false;
-    if (options.trying && build(CHECK " -Wall", why, sizeof why))
+    if (options.trying && build(WARN, why, sizeof why))
         show_log(); /* warnings */
     return true;
 }
@@ -394,7 +449,7 @@ static void mark_file(const char *path, const char *who, marks *m)
     char why[200], note[sizeof m->note] = "";
     bool found[ROUTINES] = {false};
     unlink(made("pupil"));
-    if (!copy_file(path, why, sizeof why)) {
+    if (!copy_file(path, note, sizeof note, why, sizeof why)) {
         say(who, "%s", why);
         return;
     }
