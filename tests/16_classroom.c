@@ -257,7 +257,7 @@ static void test_why_it_does_not_compile(void **state)
                "grade \"$OLDPWD\"/late.c");
 }
 
-/* Ctrl-C leaves what is done so far. */
+/* Ctrl-C, which all get, leaves what is done so far. */
 static void test_stopped(void **state)
 {
     (void)state;
@@ -271,7 +271,7 @@ static void test_stopped(void **state)
                "grade \"$OLDPWD\"/many & b=$!; "
                "for i in $(seq 200); do pgrep -P $b grade >/dev/null && break; sleep "
                "0.05; done; "
-               "sleep 3; kill -TERM $(pgrep -P $b grade); wait $b");
+               "sleep 3; kill -TERM $b $(pgrep -P $b grade); wait $b");
 }
 
 static void test_what_cannot_be_marked(void **state)
