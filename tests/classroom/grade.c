@@ -446,7 +446,7 @@ static int mark_routine(const routine *r, const char *who, marks *m)
 
 static void mark_file(const char *path, const char *who, marks *m)
 {
-    char why[200], note[sizeof m->note] = "";
+    char why[200], note[sizeof m->note - 8] = ""; /* a full one fits, too */
     bool found[ROUTINES] = {false};
     unlink(made("pupil"));
     if (!copy_file(path, note, sizeof note, why, sizeof why)) {
