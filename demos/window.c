@@ -25,7 +25,7 @@ static const struct {
     {"arrows", "go round; left, right: other samples of a pixel"},
     {"1 ... 7", "the same view in chapter 1 ... 7"},
     {"8  9  0", "glass, lamps, gloss"},
-    {",  .", "the picture before, the next one"},
+    {",  .", "previous picture, next picture"},
     {"click", "show the path of a pixel; i: hide it"},
     {"v", "the plan from above, or from the side"},
     {"z", "a magnifying glass, with numbers"},
