@@ -370,7 +370,7 @@ static void write_student(const bool *found)
     write_made("student.c", text, n);
 }
 
-#define TO_OBJECT "$CC -O1 -ffp-contract=off -w -I. -c -o"
+#define TO_OBJECT "$CC -O1 -ffp-contract=off -fno-common -w -I. -c -o"
 #define ALONE TO_OBJECT " \"$W/alone.o\" \"$W/submission.c\""
 #define WITH_POINTERS TO_OBJECT " \"$W/submission.o\" \"$W/student.c\""
 /* None of the student's names but the pointers are seen by the program that it is linked with: not
