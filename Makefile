@@ -73,7 +73,7 @@ $(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/program.a
 
 $(BUILD)/program.a: $(PROGRAM)
 	@rm -f $@
-	ar -rcs $@ $^
+	$(AR) -rcs $@ $^
 
 $(PROGRAM): $(BUILD)/%.o: demos/%.c $(HEADERS)
 	@.ci/deps found '$(CC)' sdl2 stb openmp SDL2_ttf font
@@ -99,7 +99,7 @@ $(BUILD)/rt.o: rt.h
 $(BUILD)/tests/%: tests/%.c $(BUILD)/rt.o $(wildcard tests/*.h) $(HEADERS) $(wildcard demos/demo[0-9]*.c)
 	@.ci/deps found '$(CC)' cmocka libcjson
 	@mkdir -p $(BUILD)/tests
-	$(CC) $(FLAGS) -Wno-double-promotion $(OPENMP) -o $@ $< \
+	$(CC) $(FLAGS) -Wno-double-promotion -Wno-enum-float-conversion $(OPENMP) -o $@ $< \
 	    $(if $(WHOLE),,-DLINKED $(BUILD)/rt.o) $(LDFLAGS) $(CMOCKA) -lm
 
 # --------------------------------------------------------------------------- the classroom

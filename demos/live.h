@@ -610,8 +610,8 @@ static void live_ball(demo_lines *l, rt_vec3 O, float R)
     enum { PARTS = 32 };
     for (int i = 0; i < PARTS; i++) {
         float s0, c0, s1, c1;
-        rt_sincos((float)i / PARTS, &s0, &c0);
-        rt_sincos((float)(i + 1) / PARTS, &s1, &c1);
+        rt_sincos((float)i / (float)PARTS, &s0, &c0);
+        rt_sincos((float)(i + 1) / (float)PARTS, &s1, &c1);
         live_line(l, LINE_ROOM, 1, rt_add(O, rt_vec(R * c0, 0, R * s0)),
                   rt_add(O, rt_vec(R * c1, 0, R * s1)));
         live_line(l, LINE_ROOM, 1, rt_add(O, rt_vec(0, R * c0, R * s0)),
@@ -709,7 +709,7 @@ enum { LIVE_FAR = 1000 };
 /* Where the ray of this point ends. */
 static rt_vec3 live_end(const rt_scene *scene, const rt_vertex *v)
 {
-    const float far_t = LIVE_FAR / rt_length(v->ray.direction);
+    const float far_t = (float)LIVE_FAR / rt_length(v->ray.direction);
     if (v->lamp < 0)
         return v->shape < 0 ? rt_at(&v->ray, far_t) : v->hit.point;
     const float t = rt_meet_lamp(&scene->lamps[v->lamp], &v->ray, FLT_MAX);
@@ -731,7 +731,8 @@ static void live_draw_path(const explanation *e, demo_lines *l)
             const rt_shadow *s = &path->shadows[i];
             if (s->vertex != n)
                 continue;
-            const float far_t = LIVE_FAR / rt_length(s->ray.direction); /* as the sun */
+            const float far_t =
+                (float)LIVE_FAR / rt_length(s->ray.direction); /* as the sun */
             const float t = s->blocker >= 0 ? s->t : far_t < 1.0f ? far_t : 1.0f;
             live_line(l, LINE_LIT, weight, s->ray.origin, rt_at(&s->ray, t));
             if (s->blocker >= 0)

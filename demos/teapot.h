@@ -61,11 +61,11 @@ static inline void teapot_turn(teapot *pot, const float (*curve)[2], int pieces)
     for (int row = 0; row <= pieces * TEAPOT_FINE; row++) {
         const int piece = row < pieces * TEAPOT_FINE ? row / TEAPOT_FINE : pieces - 1;
         const float(*c)[2] = &curve[3 * piece];
-        const float t = (float)(row - piece * TEAPOT_FINE) / TEAPOT_FINE;
+        const float t = (float)(row - piece * TEAPOT_FINE) / (float)TEAPOT_FINE;
         const float radius = teapot_curve(c[0][0], c[1][0], c[2][0], c[3][0], t);
         const float y = teapot_curve(c[0][1], c[1][1], c[2][1], c[3][1], t);
         for (int i = 0; i < TEAPOT_AROUND; i++) {
-            const float part = (float)(i % TEAPOT_FINE) / TEAPOT_FINE;
+            const float part = (float)(i % TEAPOT_FINE) / (float)TEAPOT_FINE;
             float x = radius * teapot_curve(1, 1, 0.56f, 0, part); /* almost a circle */
             float z = radius * teapot_curve(0, 0.56f, 1, 1, part);
             for (int quarter = i / TEAPOT_FINE; quarter > 0; quarter--) {
@@ -87,13 +87,13 @@ static inline void teapot_pipe(teapot *pot, const float (*pipe)[5])
     for (int row = 0; row <= 2 * TEAPOT_FINE; row++) {
         const int piece = row < 2 * TEAPOT_FINE ? row / TEAPOT_FINE : 1;
         const float(*p)[5] = &pipe[3 * piece];
-        const float t = (float)(row - piece * TEAPOT_FINE) / TEAPOT_FINE;
+        const float t = (float)(row - piece * TEAPOT_FINE) / (float)TEAPOT_FINE;
         float now[5];
         for (int k = 0; k < 5; k++)
             now[k] = teapot_curve(p[0][k], p[1][k], p[2][k], p[3][k], t);
         for (int i = 0; i < AROUND; i++) {
             const bool back = i >= TEAPOT_FINE;
-            const float part = (float)(back ? AROUND - i : i) / TEAPOT_FINE;
+            const float part = (float)(back ? AROUND - i : i) / (float)TEAPOT_FINE;
             const float z = teapot_curve(0, now[4], now[4], 0, part);
             pot->positions[pot->position_count++] =
                 rt_vec(teapot_curve(now[0], now[0], now[2], now[2], part),

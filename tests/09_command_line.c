@@ -1,4 +1,5 @@
 /* The demos as programs: options, files, messages and exit status. */
+#define _DARWIN_C_SOURCE  /* mkdtemp on macOS */
 #define _XOPEN_SOURCE 700 /* mkdtemp, popen, realpath, symlink, nftw */
 #include "programs.h"
 #include "scene_file.h"

@@ -1,5 +1,6 @@
 /* More than a hundred bad or odd inputs, each with what is documented to happen. The numbers are those of
  * the table in docs/correctness.md. */
+#define _DARWIN_C_SOURCE  /* mkdtemp on macOS */
 #define _XOPEN_SOURCE 700 /* mkdtemp, popen, realpath, symlink, nftw */
 #include "../demos/scene.h"
 #include "programs.h"

@@ -1,5 +1,6 @@
 /* make starters, make try, make grade: what students and teachers see. The whole session of
  * docs/teaching.md is "tests/check classroom". */
+#define _DARWIN_C_SOURCE  /* mkdtemp on macOS */
 #define _XOPEN_SOURCE 700 /* nftw, mkdtemp, setenv */
 #include "programs.h"
 

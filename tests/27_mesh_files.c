@@ -1,4 +1,5 @@
 /* Meshes from files, demos 16 and 17: what is read, and what is refused in one line. */
+#define _DARWIN_C_SOURCE  /* mkdtemp on macOS */
 #define _XOPEN_SOURCE 700 /* mkdtemp, popen, mkfifo, nftw */
 #include <time.h>
 

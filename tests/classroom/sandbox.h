@@ -24,6 +24,9 @@
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #endif
+#ifdef __APPLE__
+#define st_mtim st_mtimespec
+#endif
 
 typedef struct task {
     char *const *argv;
