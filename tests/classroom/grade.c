@@ -21,6 +21,15 @@
 #include "judge.h"
 #include "sandbox.h"
 
+/* Keep to itself all that a compiled submission defines, but for the pointers to its routines. */
+#ifdef __APPLE__ /* where there is no objcopy; not tried yet */
+#define HIDE                                                                             \
+    "ld -r -exported_symbol '_rt__yours_*' -o \"$W/all.o\" \"$W/submission.o\" && "      \
+    "mv \"$W/all.o\" \"$W/submission.o\""
+#else
+#define HIDE "objcopy -w -G 'rt__yours_*' \"$W/submission.o\""
+#endif
+
 #ifdef __linux__
 #define STATIC "-static" /* or it would have to open files to start */
 #else
@@ -376,7 +385,7 @@ static void write_student(const bool *found)
 /* None of the student's names but the pointers are seen by the program that it is linked with: not
  * their main, and no function that is called like one of the C library's. */
 #define LINK                                                                             \
-    "objcopy -w -G 'rt__yours_*' \"$W/submission.o\" && "                                \
+    HIDE " && "                                                                          \
     "$CC " STATIC " -o \"$W/pupil\" \"$PUPIL\" \"$W/submission.o\" -lm"
 #define COMPILE WITH_POINTERS " && " LINK
 #define PREPROCESS "exec $CC -E -dD -I. \"$W/submission.c\""
