@@ -127,7 +127,7 @@ golden: $(TESTS:%=$(BUILD)/tests/%) ## record the small pictures and hashes to c
 check: test ## all that a maintainer runs before a release (minutes)
 	@tests/check
 
-check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windows editor standards levels, or see tests/check
+check-%: $(DEMOS:%=$(BUILD)/%) ## one check: tsan fuzz coverage mutate arm windows mac editor standards levels, or see tests/check
 	@tests/check $*
 
 # ---------------------------------------------------------------------------- the rest
