@@ -1,14 +1,11 @@
 /* Pictures as files: see files.h. They are written under another name and renamed when complete. */
-#define _DEFAULT_SOURCE /* stb */
-#define _DARWIN_C_SOURCE
-#define _XOPEN_SOURCE 700 /* stat, realpath */
 #include "files.h"
+#include "platform.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
@@ -27,18 +24,27 @@ static bool file_error(const char *who, const char *path)
     return false;
 }
 
+/* The picture is not lost then. */
+static bool replace(const char *who, const char *new, const char *path, const char *given)
+{
+    const char *why = platform_replace(new, path);
+    if (why)
+        fprintf(stderr, "%s: cannot write '%s': %s; the picture is in '%s'\n", who, given,
+                why, new);
+    return !why;
+}
+
 /* Open a new file in the folder of path, to be renamed; free *name. NULL, with errno, on
  * failure. */
 static FILE *open_beside(const char *path, char **name)
 {
-    const char *slash = strrchr(path, '/');
-    const int folder = slash ? (int)(slash - path) + 1 : 0;
+    const int folder = platform_folder(path);
     const size_t size = (size_t)folder + 32;
     FILE *file = NULL;
     *name = strlen(path) < INT_MAX ? malloc(size) : NULL;
     for (int i = 1; *name && !file && i < 100; i++) {
         snprintf(*name, size, "%.*s.rt-%d.part", folder, path, i);
-        file = fopen(*name, "wbx"); /* x: never an existing file */
+        file = platform_open(*name, "wbx"); /* x: never an existing file */
         if (!file && errno != EEXIST)
             break;
     }
@@ -48,29 +54,25 @@ static FILE *open_beside(const char *path, char **name)
 /* Devices and pipes are written in place; renaming would replace them by a file. */
 static bool written_in_place(const char *path)
 {
-    struct stat info;
-    return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+    return platform_look(path, NULL) == A_DEVICE;
 }
 
 /* Asked before the rendering, not after it. */
 bool files_can_write(const char *who, const char *path)
 {
-    struct stat info;
-    if (written_in_place(path))
+    const platform_kind kind = platform_look(path, NULL);
+    if (kind == A_DEVICE)
         return true;
-    if (stat(path, &info) == 0) {
+    if (kind == A_FOLDER)
         errno = EISDIR;
-        if (S_ISDIR(info.st_mode))
-            return file_error(who, path);
-    } else if (errno != ENOENT) { /* a name that is too long, a file as folder */
+    if (kind == A_FOLDER || (kind == NO_FILE && errno != ENOENT)) /* a name too long */
         return file_error(who, path);
-    }
     char *name;
     FILE *file = open_beside(path, &name);
     const bool good = file != NULL || file_error(who, path);
     if (good) {
         fclose(file);
-        remove(name);
+        platform_remove(name);
     }
     free(name);
     return good;
@@ -78,10 +80,10 @@ bool files_can_write(const char *who, const char *path)
 
 static bool write_file(const char *who, const char *given, const void *bytes, size_t size)
 {
-    char *name = NULL, *real = realpath(given, NULL); /* behind a symbolic link */
+    char *name = NULL, *real = platform_behind(given);
     const char *path = real ? real : given;
     const bool in_place = written_in_place(path);
-    FILE *file = in_place ? fopen(path, "wb") : open_beside(path, &name);
+    FILE *file = in_place ? platform_open(path, "wb") : open_beside(path, &name);
     bool good = file != NULL;
     if (good) {
         good = fwrite(bytes, 1, size, file) == size && fflush(file) == 0;
@@ -90,12 +92,12 @@ static bool write_file(const char *who, const char *given, const void *bytes, si
             good = false;
         else
             errno = error;
-        if (good && !in_place)
-            good = rename(name, path) == 0;
         if (!good) {
             file_error(who, given);
             if (!in_place)
-                remove(name);
+                platform_remove(name);
+        } else if (!in_place) {
+            good = replace(who, name, path, given);
         }
     } else {
         file_error(who, given);
@@ -157,7 +159,7 @@ bool files_is_pfm(const char *path)
 rt_vec3 *files_load(const char *who, const char *path, int *width, int *height)
 {
     errno = 0;
-    FILE *file = fopen(path, "rb");
+    FILE *file = platform_open(path, "rb");
     unsigned char *bytes =
         file ? stbi_load_from_file(file, width, height, NULL, 3) : NULL;
     const char *why = !file || errno == EISDIR ? strerror(errno) : stbi_failure_reason();

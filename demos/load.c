@@ -1,9 +1,6 @@
 /* Meshes from files: see load.h. A file may contain anything, and the library is large.
  * So another process reads it, with limited memory and time, and what it hands over is
  * checked once more. */
-#define _DEFAULT_SOURCE
-#define _DARWIN_C_SOURCE
-#define _XOPEN_SOURCE 700 /* fork, stat, strcasecmp */
 #include "load.h"
 
 #ifndef HAVE_ASSIMP
@@ -22,16 +19,12 @@ bool load_mesh(const char *who, const char *path, rt_mesh *mesh)
 
 #else
 
+#include "platform.h"
+
+#include <ctype.h>
 #include <errno.h>
-#include <signal.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -65,19 +58,6 @@ const char *load_lacks(void)
 /* -------------------------------------------------------------------------------------
  * The other process
  * ------------------------------------------------------------------------------------- */
-
-/* Limit memory and time. (The sanitizers need any amount of memory for themselves.) */
-static void set_limits(void)
-{
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    const struct rlimit memory = {(rlim_t)MEMORY_GB << 30, (rlim_t)MEMORY_GB << 30};
-    setrlimit(RLIMIT_AS, &memory);
-#endif
-    const struct rlimit no_core = {0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    signal(SIGALRM, SIG_DFL);
-    alarm(SECONDS);
-}
 
 /* NULL, or why assimp should not go on with it. */
 static const char *fault_of(const struct aiScene *scene)
@@ -183,22 +163,6 @@ static bool read_here(const char *path, FILE *to)
     return fflush(to) == 0 && !ferror(to);
 }
 
-/* Let another process do it; returns how that ended. */
-static int read_elsewhere(const char *path, FILE *file)
-{
-    int status = -1;
-    const pid_t child = fork();
-    if (child == 0) {
-        set_limits();
-        if (!freopen("/dev/null", "w", stderr)) /* libraries complain as they like */
-            _exit(1);
-        _exit(read_here(path, file) ? 0 : 1);
-    }
-    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
-        ;
-    return status;
-}
-
 /* -------------------------------------------------------------------------------------
  * This one
  * ------------------------------------------------------------------------------------- */
@@ -249,23 +213,32 @@ static const char *take_over(FILE *file, rt_mesh *mesh)
     return why;
 }
 
+/* Large letters count as small ones. */
+static bool ends_in(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), n = strlen(ending);
+    for (size_t i = 0; i < n && n <= length; i++)
+        if (tolower((unsigned char)path[length - n + i]) != ending[i])
+            return false;
+    return n <= length;
+}
+
 /* NULL, or why not to read this file. */
 static const char *refusal(const char *path)
 {
     static const char *const endings[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
-    struct stat info;
-    const char *dot = strrchr(path, '.');
-    if (stat(path, &info) != 0)
-        return strerror(errno);
-    if (S_ISDIR(info.st_mode))
-        return strerror(EISDIR);
-    if (!S_ISREG(info.st_mode))
-        return "it is not a file";
-    if (info.st_size > BYTES)
+    long long size;
+    switch (platform_look(path, &size)) {
+    case NO_FILE: return strerror(errno);
+    case A_FOLDER: return strerror(EISDIR);
+    case A_DEVICE: return "it is not a file";
+    case A_FILE: break;
+    }
+    if (size > BYTES)
         return "it is larger than 500 MB";
-    for (size_t i = 0; dot && i < sizeof endings / sizeof endings[0]; i++)
-        if (strcasecmp(dot, endings[i]) == 0)
-            return info.st_size == 0 ? "it is empty" : NULL;
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
+        if (ends_in(path, endings[i]))
+            return size == 0 ? "it is empty" : NULL;
     return "its name does not end in .obj, .ply, .stl, .gltf or .glb";
 }
 
@@ -275,15 +248,12 @@ bool load_mesh(const char *who, const char *path, rt_mesh *mesh)
     FILE *file = why ? NULL : tmpfile();
     if (!why && !file)
         why = strerror(errno);
-    if (!why) {
-        const int status = read_elsewhere(path, file);
-        if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
-            why = take_over(file, mesh);
-        else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-            why = "reading it takes more than a minute";
-        else
-            why = "assimp gave up, or needs more than 4 GB";
-    }
+    if (!why)
+        switch (platform_apart(read_here, path, file, MEMORY_GB, SECONDS)) {
+        case WELL: why = take_over(file, mesh); break;
+        case TOO_LONG: why = "reading it takes more than a minute"; break;
+        case BADLY: why = "assimp gave up, or needs more than 4 GB"; break;
+        }
     if (file)
         fclose(file);
     if (why) {

@@ -1,11 +1,9 @@
 /* The program around a demo: it does what the command line wants, with or without a
  * window. demo.h says what a demo is, viewer.h what can be done with its picture. */
-#define _DEFAULT_SOURCE
-#define _DARWIN_C_SOURCE
-#define _XOPEN_SOURCE 700 /* stat, sigaction */
 #include "command.h"
 #include "files.h"
 #include "load.h"
+#include "platform.h"
 #include "progress.h"
 #include "viewer.h"
 #include "window.h"
@@ -13,7 +11,6 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 
 enum { WORDS = 1 << 16 };
 enum { DONE = 0, FAILED = 1, WRONG_USE = 2, INTERRUPTED = 130 };
@@ -375,11 +372,7 @@ static int show(run *r)
 {
     if (r->v.d->measure && !r->s.quiet)
         r->v.d->measure(rt_thread_count(r->v.options.threads));
-    struct sigaction action = {.sa_handler = interrupt};
-    action.sa_flags = (int)SA_RESETHAND;
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error like any other, not the end */
+    platform_on_interrupt(interrupt);
     if (r->s.window)
         open_window(r);
     const int result = render_and_save(r);
@@ -393,7 +386,7 @@ static int show(run *r)
 static void say_what_is_not(run *r)
 {
     const demo *d = r->v.d;
-    if (r->s.preview && progress_colours() == 0) {
+    if (r->s.preview && platform_colours() == 0) {
         r->s.preview = false;
         if (!r->s.quiet)
             printf("%s: --preview: this is no terminal with colours\n", d->name);
@@ -417,29 +410,6 @@ static rt_options options_of(const settings *s)
                         .seconds = s->seconds,
                         .lanes = (int)s->lanes};
 }
-
-#if defined(__x86_64__) && defined(__GNUC__)
-/* Was this compiled for more than this machine has (-march=native, and then copied)? Ask
- * before main, in plain x86-64, since main itself may use what is missing. */
-__attribute__((constructor, target("arch=x86-64"))) static void check_machine(void)
-{
-    const char *lacks = NULL;
-    __builtin_cpu_init();
-#ifdef __AVX2__
-    lacks = __builtin_cpu_supports("avx2") ? lacks : "AVX2";
-#endif
-#ifdef __AVX512F__
-    lacks = __builtin_cpu_supports("avx512f") ? lacks : "AVX-512";
-#endif
-    if (lacks) {
-        fprintf(stderr,
-                "compiled for a machine with %s, which this one lacks: make -B "
-                "MACHINE= makes a program for any\n",
-                lacks);
-        exit(FAILED);
-    }
-}
-#endif
 
 /* The picture stays until the program ends. */
 static bool wrap_texture(const demo *d, const char *path)
@@ -469,11 +439,10 @@ static bool take_mesh(const demo *d, const char *path)
     return true;
 }
 
-int demo_main(int argc, char **argv, const demo *d)
+static int run_demo(int argc, char **argv, const demo *d)
 {
     char out[64];
-    struct stat info;
-    const bool at_the_top = stat("build", &info) == 0 && S_ISDIR(info.st_mode);
+    const bool at_the_top = platform_look("build", NULL) == A_FOLDER;
     snprintf(out, sizeof out, "%s%s.png", at_the_top ? "build/" : "", d->name);
     run r = {.v = {.d = d},
              .s = {.width = 640,
@@ -517,5 +486,13 @@ int demo_main(int argc, char **argv, const demo *d)
         fprintf(stderr, "%s: cannot write to standard output\n", d->name);
         result = FAILED;
     }
+    return result;
+}
+
+int demo_main(int argc, char **argv, const demo *d)
+{
+    char **words = platform_begin(&argc, argv);
+    const int result = run_demo(argc, words, d);
+    platform_end(result == DONE);
     return result;
 }

@@ -1,32 +1,8 @@
 /* Progress on a terminal: see progress.h. */
-#define _DEFAULT_SOURCE   /* winsize */
-#define _DARWIN_C_SOURCE  /* the same on macOS */
-#define _XOPEN_SOURCE 700 /* isatty, fileno */
 #include "progress.h"
+#include "platform.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
-
-static bool on_terminal(void)
-{
-    const char *term = getenv("TERM");
-    return isatty(fileno(stderr)) && (!term || strcmp(term, "dumb") != 0);
-}
-
-/* How many colours the terminal has: 0 (none, or no terminal), 256, or 2^24. */
-int progress_colours(void)
-{
-    const char *term = getenv("TERM"), *colour = getenv("COLORTERM");
-    if (!on_terminal() || !term)
-        return 0;
-    if ((colour && (strcmp(colour, "truecolor") == 0 || strcmp(colour, "24bit") == 0)) ||
-        strstr(term, "-direct"))
-        return 1 << 24;
-    return strstr(term, "256color") ? 256 : 0;
-}
 
 /* The mean of the pixels in one of columns x rows parts of the image, as bytes. */
 static void preview_colour(const progress *p, int x, int y, int columns, int rows,
@@ -54,10 +30,10 @@ static void preview_colour(const progress *p, int x, int y, int columns, int row
  * there is nothing to restore when the program ends, however it ends. */
 void progress_preview(progress *p)
 {
-    struct winsize size = {.ws_col = 80, .ws_row = 24};
-    ioctl(fileno(stderr), TIOCGWINSZ, &size);
-    int columns = size.ws_col > 1 ? size.ws_col - 1 : 1;
-    const int most = size.ws_row > 3 ? size.ws_row - 3 : 1;
+    int columns = 80, rows_there = 24;
+    platform_terminal_size(&columns, &rows_there);
+    columns = columns > 1 ? columns - 1 : 1;
+    const int most = rows_there > 3 ? rows_there - 3 : 1;
     int rows =
         (int)((double)columns * p->picture->height / p->picture->width / 2.0 + 0.5);
     if (rows > most) {
@@ -67,7 +43,7 @@ void progress_preview(progress *p)
     }
     rows = rows > 0 ? rows : 1;
     columns = columns > 0 ? columns : 1;
-    const bool all = progress_colours() > 256;
+    const bool all = platform_colours() > 256;
     if (p->preview_rows == rows)
         fprintf(stderr, "\r\033[%dA", rows);
     p->preview_rows = rows;
@@ -99,7 +75,7 @@ void progress_print(progress *p, double now, double part, int samples)
         progress_preview(p);
         p->due = 0.0;
     }
-    if (on_terminal()) {
+    if (platform_has_terminal()) {
         if (now < p->due)
             return;
         p->due = now + 0.1;
@@ -120,6 +96,6 @@ void progress_print(progress *p, double now, double part, int samples)
 
 void progress_end(const progress *p)
 {
-    if (!p->quiet && on_terminal())
+    if (!p->quiet && platform_has_terminal())
         fprintf(stderr, "\r\033[K");
 }

@@ -20,7 +20,5 @@ typedef struct progress {
 void progress_print(progress *p, double now, double part, int samples);
 void progress_end(const progress *p); /* remove the bar */
 void progress_preview(progress *p);
-/* How many colours the terminal has: 0 (none, or no terminal), 256, or 2^24. */
-int progress_colours(void);
 
 #endif

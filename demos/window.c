@@ -2,6 +2,7 @@
  * Text needs SDL2_ttf and a font. Without them the window works, and the terminal says what is to
  * be said. */
 #include "window.h"
+#include "platform.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -728,14 +729,11 @@ void window_was_away(window *w)
  * From its opening to its end
  * ------------------------------------------------------------------------------------- */
 
-/* Without a display SDL succeeds all the same, with a driver that shows nothing, and the
- * libraries that it asks complain on stderr: on Linux look before asking. */
+/* Without a display SDL succeeds all the same, with a driver that shows nothing. */
 static bool have_display(void)
 {
-#ifdef __linux__
-    if (!getenv("DISPLAY") && !getenv("WAYLAND_DISPLAY"))
+    if (!platform_may_have_display())
         return false;
-#endif
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); /* Ctrl-C is ours */
     SDL_SetMainReady();
     if (SDL_Init(SDL_INIT_VIDEO) != 0)

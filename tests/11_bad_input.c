@@ -625,6 +625,10 @@ static void folder_as_file(void)
     assert_true(mkdir("d.png", 0777) == 0);
     expect(1, "cannot write 'd.png': Is a directory",
            "demo01 9 9 --no-window --out d.png");
+    shell(1, "cannot write 'e.png': Is a directory; the picture is in '",
+          "(sleep 0.3; mkdir e.png) & \"$DEMOS\"/demo01 64 48 --time 1 --no-window "
+          "--out e.png; status=$?; wait; exit $status");
+    shell(0, "PNG", "head -c 4 .rt-1.part; rm .rt-1.part");
 }
 
 static void full_device(void)
