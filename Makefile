@@ -15,8 +15,13 @@ ARGS    ?=
 MACHINE  = $(eval MACHINE := $(shell $(CC) -march=native -E -x c /dev/null >/dev/null 2>&1 && \
     echo -march=native))$(MACHINE)
 
+# gcc for Windows may put vectors where the stack is not aligned to them; its assembler knows moves
+# that do not mind.
+MOVES    = $(eval MOVES := $(shell $(CC) -dumpmachine 2>/dev/null | grep -q mingw && \
+    echo -Wa,-muse-unaligned-vector-move))$(MOVES)
+
 # -ffp-contract=off: the same bits everywhere; otherwise gcc would contract a*b+c where it can.
-FLAGS    = -std=c99 $(CPPFLAGS) $(MACHINE) $(CFLAGS) -ffp-contract=off $(WARNINGS)
+FLAGS    = -std=c99 $(CPPFLAGS) $(MACHINE) $(MOVES) $(CFLAGS) -ffp-contract=off $(WARNINGS)
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
 OPENMP   = $(eval OPENMP := $(shell .ci/deps openmp '$(CC)'))$(OPENMP)
 STB      = $(shell .ci/deps stb '$(CC)')
@@ -39,7 +44,7 @@ HEADERS := rt.h $(wildcard demos/*.h)
 PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files load platform progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
-.PHONY: help deps demos test golden check bench bench-rays docs deps-docs web deps-web starters try grade install clean $(DEMOS)
+.PHONY: help deps demos test golden check bench bench-rays docs deps-docs web deps-web windows starters try grade install clean $(DEMOS)
 
 help: ## this list
 	@echo '  make demo01 ... demo17  build and run a chapter; ARGS="1280 960 --samples 64"'
@@ -163,6 +168,9 @@ docs: $(DEMOS:%=$(BUILD)/%) ## renew code, numbers, pictures in docs/; build/sit
 
 web: ## the chapters' pictures alive in a browser: build/web/pages/index.html
 	@docs/web.sh
+
+windows: ## the demos for Windows, made on Linux: build/windows, build/rt-windows.zip
+	@docs/windows.sh
 
 install: ## rt.h and rt.pc to PREFIX (/usr/local), under DESTDIR
 	install -d -m 755 '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'

@@ -34,14 +34,20 @@ static const wchar_t *wide(const char *text, wchar_t result[LONGEST])
 /* Not argv: its words are in a code page that may lack their letters. */
 char **platform_begin(int *argc, char **argv)
 {
-    wchar_t **words = CommandLineToArgvW(GetCommandLineW(), argc);
-    char **result = words ? calloc((size_t)*argc + 1, sizeof *result) : NULL;
-    for (int i = 0; result && i < *argc; i++) {
-        const int size =
-            WideCharToMultiByte(CP_UTF8, 0, words[i], -1, NULL, 0, NULL, NULL);
-        result[i] = calloc((size_t)size + 1, 1);
-        if (result[i])
-            WideCharToMultiByte(CP_UTF8, 0, words[i], -1, result[i], size, NULL, NULL);
+    const wchar_t *line = GetCommandLineW();
+    int count = 0, used = 0;
+    wchar_t **words = CommandLineToArgvW(line, &count);
+    const int size = 3 * ((int)wcslen(line) + 1);
+    char **result = calloc((size_t)count + 1, sizeof *result);
+    char *text = malloc((size_t)size);
+    if (words && result && text) {
+        for (int i = 0; i < count; i++) {
+            result[i] = text + used;
+            used += WideCharToMultiByte(CP_UTF8, 0, words[i], -1, text + used,
+                                        size - used, NULL, NULL);
+        }
+        *argc = count;
+        argv = result;
     }
     LocalFree(words);
     terminal.page = GetConsoleOutputCP();
@@ -51,7 +57,7 @@ char **platform_begin(int *argc, char **argv)
         !SetConsoleMode(terminal.error,
                         terminal.mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING))
         terminal.error = NULL;
-    return result ? result : argv;
+    return argv;
 }
 
 void platform_end(bool good)
@@ -73,12 +79,12 @@ void platform_on_interrupt(void (*stop)(int signal))
     signal(SIGINT, stop); /* once: then it is as it was */
 }
 
-/* fopen of older Windows does not know the x of "wbx". */
+/* _wfopen of older Windows does not know the x of "wbx". */
 FILE *platform_open(const char *path, const char *mode)
 {
-    wchar_t name[LONGEST], how[8] = L"";
+    wchar_t name[LONGEST];
     if (!strchr(mode, 'x'))
-        return _wfopen(wide(path, name), wide(mode, how));
+        return _wfopen(wide(path, name), *mode == 'r' ? L"rb" : L"wb");
     const int file = _wopen(wide(path, name), _O_CREAT | _O_EXCL | _O_WRONLY | _O_BINARY,
                             _S_IREAD | _S_IWRITE);
     return file >= 0 ? _fdopen(file, "wb") : NULL;
