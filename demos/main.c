@@ -493,6 +493,6 @@ int demo_main(int argc, char **argv, const demo *d)
 {
     char **words = platform_begin(&argc, argv);
     const int result = run_demo(argc, words, d);
-    platform_end(result == DONE);
+    platform_end(result == DONE || result == INTERRUPTED);
     return result;
 }

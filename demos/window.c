@@ -83,8 +83,12 @@ static TTF_Font *font; /* NULL: none */
 /* False: there is none, and why. */
 static bool open_font(const char **why)
 {
+    char path[1000];
+    char *folder = strchr(FONT, '/') ? NULL : SDL_GetBasePath(); /* beside the program */
+    snprintf(path, sizeof path, "%s%s", folder ? folder : "", FONT);
+    SDL_free(folder);
     if (TTF_Init() == 0)
-        font = TTF_OpenFont(FONT, SMALLEST);
+        font = TTF_OpenFont(path, SMALLEST);
     *why = font ? NULL : TTF_GetError();
     return font != NULL;
 }
