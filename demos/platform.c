@@ -15,7 +15,7 @@
 
 #include <shellapi.h>
 
-enum { LONGEST = 32768 }; /* path, for Windows */
+enum { LONGEST = 260 }; /* path, for Windows, with the 0 at its end */
 
 static struct {
     void *error; /* stderr, if it is a terminal that knows escape codes, otherwise NULL */
@@ -100,7 +100,11 @@ platform_kind platform_look(const char *path, long long *size)
 {
     wchar_t name[LONGEST];
     struct _stat64 info;
-    if (_wstat64(wide(path, name), &info) != 0)
+    if (!*wide(path, name) || strpbrk(path, "?*<>|\"")) {
+        errno = *name ? EINVAL : ENAMETOOLONG;
+        return NO_FILE;
+    }
+    if (_wstat64(name, &info) != 0)
         return NO_FILE;
     if (size)
         *size = info.st_size;

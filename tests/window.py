@@ -821,4 +821,5 @@ def main():
         shutil.rmtree(WORK, ignore_errors=True)
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())
