@@ -9,6 +9,7 @@ import os
 import pty
 import select
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -26,7 +27,7 @@ def demo(name, *words):
     """Run it in HERE: exit status, and what it printed."""
     done = subprocess.run(["wine", name + ".exe", *words], cwd=HERE, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, timeout=60, check=False)
-    return done.returncode, done.stdout.decode().replace("\r\n", "\n")
+    return done.returncode, done.stdout.decode(errors="replace").replace("\r\n", "\n")
 
 
 def expected(name):
@@ -66,6 +67,8 @@ def in_terminal(keys, seconds, *words):
         if keys and time.monotonic() > start + seconds:
             os.write(terminal, keys)
             keys = None
+    else:
+        os.kill(pid, signal.SIGKILL)
     return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), said.decode(errors="replace")
 
 
