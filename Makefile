@@ -28,7 +28,7 @@ STB      = $(shell .ci/deps stb '$(CC)')
 FONT     = $(shell .ci/deps font '$(CC)')
 TTF      = $(and $(FONT),$(shell pkg-config --exists SDL2_ttf 2>/dev/null && echo SDL2_ttf))
 SDL      = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags sdl2 $(TTF) 2>/dev/null)) $(TTF:%=-DHAVE_TTF '-DFONT="$(FONT)"')
-SDL_LIBS = $(shell pkg-config --libs sdl2 $(TTF) 2>/dev/null)
+SDL_LIBS = $(filter-out -mwindows,$(shell pkg-config --libs sdl2 $(TTF) 2>/dev/null))
 # assimp reads meshes from files for demos 16 and 17; they also work without it.
 ASSIMP   = $(shell pkg-config --exists assimp 2>/dev/null && echo -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp 2>/dev/null)))
 LIBS     = $(LDFLAGS) $(SDL_LIBS) $(shell pkg-config --libs assimp 2>/dev/null)

@@ -46,11 +46,11 @@ for demo in $demos; do
     cp "$demo.exe" "$build/windows" || exit
 done
 sed 's/$/\r/' >"$build/windows/README.txt" <<'END'
-The demos of rt.h, a ray tracer in one C header. Unpack the folder first; keep its files together.
+The demos of rt.h, a ray tracer in one C header. Unpack the folder; keep its files together.
 A double click on demo01.exe to demo17.exe opens a chapter's picture in a window: h shows the keys.
+If Windows warns of a program that it does not know: More info, Run anyway.
 In a terminal: demo09.exe 1280 960 --samples 64 (demo09.exe --help lists what there is).
 The picture is written beside the program, demo09.png for demo09.exe, or where --out says.
-These files belong together: SDL2.dll and SDL2_ttf.dll (libsdl.org, zlib licence), and the font.
 END
 rm -f "$build/rt-windows.zip"
 (cd "$build" && zip -qr rt-windows.zip windows) && echo "$build/rt-windows.zip"
