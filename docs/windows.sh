@@ -1,7 +1,7 @@
 #!/bin/sh
 # The demos for Windows, made on Linux: build/windows, and the same as build/rt-windows.zip. They run
 # on any PC. SDL for Windows comes from PyPI (pysdl2-dll), the headers are this system's. Status 3:
-# a tool is missing.
+# a tool or SDL is missing.
 build=${BUILD:-build}
 parts=$build/windows-parts
 need() { # TOOL PACKAGE
@@ -15,8 +15,9 @@ cc=$(command -v x86_64-w64-mingw32-gcc-posix || echo x86_64-w64-mingw32-gcc) # D
 
 mkdir -p "$parts/SDL2" || exit
 [ -f "$parts/SDL2.dll" ] || {
-    python3 -m pip download -q --no-deps --only-binary=:all: --platform win_amd64 -d "$parts" pysdl2-dll &&
-        python3 -m zipfile -e "$parts"/pysdl2_dll-*.whl "$parts/wheel" &&
+    python3 -m pip download -q --no-deps --only-binary=:all: --platform win_amd64 -d "$parts" pysdl2-dll ||
+        { echo "note: no SDL for Windows from PyPI (pysdl2-dll)"; exit 3; }
+    python3 -m zipfile -e "$parts"/pysdl2_dll-*.whl "$parts/wheel" &&
         cp "$parts"/wheel/sdl2dll/dll/SDL2.dll "$parts"/wheel/sdl2dll/dll/SDL2_ttf.dll "$parts" || exit
 }
 

@@ -386,7 +386,7 @@ static void write_student(const bool *found)
  * their main, and no function that is called like one of the C library's. */
 #define LINK                                                                             \
     HIDE " && "                                                                          \
-    "$CC " STATIC " -o \"$W/pupil\" \"$PUPIL\" \"$W/submission.o\" -lm"
+         "$CC " STATIC " -o \"$W/pupil\" \"$PUPIL\" \"$W/submission.o\" -lm"
 #define COMPILE WITH_POINTERS " && " LINK
 #define PREPROCESS "exec $CC -E -dD -I. \"$W/submission.c\""
 #define WARN "exec $CC -fsyntax-only -Wall -I. \"$W/submission.c\""
