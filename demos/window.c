@@ -47,17 +47,18 @@ struct window {
     SDL_Window *window;
     SDL_Renderer *renderer;
     SDL_Texture *texture;
-    SDL_Rect area;                 /* of the picture, in pixels of the screen */
-    SDL_Rect plan, table;          /* beside it and below it, while a path is shown */
-    float density;                 /* such pixels for one of the mouse's */
-    int letter;                    /* the size of text, in pixels of the screen */
-    bool text;                     /* is there a font? */
-    unsigned char *bytes;          /* of the picture, 3 for each pixel */
-    bool wide;                     /* with room for the plan; before that it was */
-    int width, height;             /* so large */
-    bool said_help;                /* in the terminal */
-    bool repeated;                 /* the key that is held, once more */
-    int digit;                     /* by the place of the key that went down last, or 0 */
+    SDL_Rect area;        /* of the picture, in pixels of the screen */
+    SDL_Rect plan, table; /* beside it and below it, while a path is shown */
+    float density;        /* such pixels for one of the mouse's */
+    int letter;           /* the size of text, in pixels of the screen */
+    bool text;            /* is there a font? */
+    unsigned char *bytes; /* of the picture, 3 for each pixel */
+    bool wide;            /* with room for the plan; before that it was */
+    int width, height;    /* so large */
+    bool said_help;       /* in the terminal */
+    bool repeated;        /* the key that is held, once more */
+    int digit;            /* by the place of the key that went down last, or 0 */
+    int held;             /* modifier keys, as of the event: SDL knows of later ones */
     short keys[SDL_NUM_SCANCODES]; /* what the keys that are down meant then */
     double due;                    /* when it may be drawn again */
     double polled, slowest;
@@ -637,9 +638,9 @@ static void handle_key_up(window *w, viewer *v, SDL_Scancode place)
  * systems. */
 static void handle_text(window *w, viewer *v, const char *text)
 {
-    const SDL_Keymod held = SDL_GetModState();
-    const bool alt_gr = (held & (KMOD_RALT | KMOD_MODE)) != 0;
-    if ((held & KMOD_GUI) != 0 || ((held & (KMOD_CTRL | KMOD_LALT)) != 0 && !alt_gr))
+    const bool alt_gr = (w->held & (KMOD_RALT | KMOD_MODE)) != 0;
+    if ((w->held & KMOD_GUI) != 0 ||
+        ((w->held & (KMOD_CTRL | KMOD_LALT)) != 0 && !alt_gr))
         return;
     const bool typed = text[0] != '\0' && text[1] == '\0' && strchr(typed_keys, text[0]);
     const int key = typed ? text[0] : w->digit;
@@ -666,8 +667,14 @@ static void handle(window *w, viewer *v, const SDL_Event *e)
     case SDL_QUIT: v->closed = true; break;
     case SDL_WINDOWEVENT:
     case SDL_RENDER_TARGETS_RESET: w->due = 0.0; break;
-    case SDL_KEYDOWN: handle_key_down(w, v, &e->key); break;
-    case SDL_KEYUP: handle_key_up(w, v, e->key.keysym.scancode); break;
+    case SDL_KEYDOWN:
+        w->held = e->key.keysym.mod;
+        handle_key_down(w, v, &e->key);
+        break;
+    case SDL_KEYUP:
+        w->held = e->key.keysym.mod;
+        handle_key_up(w, v, e->key.keysym.scancode);
+        break;
     case SDL_TEXTINPUT: handle_text(w, v, e->text.text); break;
     case SDL_MOUSEBUTTONDOWN:
         if (w->area.w > 0) /* it was drawn */
@@ -679,7 +686,7 @@ static void handle(window *w, viewer *v, const SDL_Event *e)
     case SDL_MOUSEMOTION:
         if (w->area.w > 0)
             viewer_move(v, picture_x(w, v, e->motion.x), picture_y(w, v, e->motion.y),
-                        (SDL_GetModState() & KMOD_SHIFT) != 0);
+                        (w->held & KMOD_SHIFT) != 0);
         break;
     case SDL_MOUSEWHEEL:
         if (e->wheel.y != 0)
