@@ -4,7 +4,7 @@
 #   docs/renew.sh --check FILE.md...  write nothing: name the stale files, and exit 1
 # Run it at the top of the repository, after docs/numbers.sh.
 #   <!-- snip: PATH#NAME -->   the definition of NAME in PATH: a function or its type, a struct, an enum,
-#   <!-- /snip -->             or the program below the heading NAME in a comment
+#   <!-- /snip -->             or the program below the heading NAME in a comment; without #NAME all of PATH
 #   <!-- put: NAME -->         what build/numbers/NAME.txt has, except its lines "key: value"
 #   <!-- /put -->
 #   <!--NAME KEY-->...<!--/--> the value in the line "KEY: value" there, within a sentence
@@ -38,6 +38,12 @@ function excerpt(path, name,    line, status, end, part, found, result) {
     sub(/^\n+/, "", result)
     return "```c\n" result "\n```"
 }
+function whole(path,    line, status, result) {
+    while ((status = (getline line < path)) > 0) result = result line "\n"
+    close(path)
+    if (status < 0) fail("cannot read " path)
+    return "```" (path ~ /[.]py$/ ? "python" : "c") "\n" result "```"
+}
 function numbers(name, key,    path, line, status, result, fence) { # without a key: the rest
     path = build "/numbers/" name ".txt"
     while ((status = (getline line < path)) > 0) {
@@ -67,9 +73,10 @@ function within(line,    before, mark, part) { # the numbers in a line of text
 /^<!-- (snip|put): .* -->$/ && open != "" { fail(open " is not closed") }
 /^<!-- \/(snip|put) -->$/ { open = "" }
 open == "" { print within($0) }
-/^<!-- snip: .*#.* -->$/ {
+/^<!-- snip: .* -->$/ {
     open = substr($0, 12, length($0) - 15)
-    print excerpt(substr(open, 1, index(open, "#") - 1), substr(open, index(open, "#") + 1))
+    hash = index(open, "#")
+    print hash ? excerpt(substr(open, 1, hash - 1), substr(open, hash + 1)) : whole(open)
 }
 /^<!-- put: .* -->$/ {
     open = substr($0, 11, length($0) - 14)
