@@ -18,8 +18,8 @@ if time[built] < max(time[me], time[header]):
     source = '#define RT_IMPLEMENTATION\n#include "rt.h"\n' + "".join(
         f"void (*const at_{n})(void) = (void (*)(void)){n};\n" for n in set(names))
     new = built.with_suffix(f".{os.getpid()}")
-    subprocess.run([os.environ.get("CC", "cc"), "-O2", "-fopenmp", "-fPIC",
-                    "-ffp-contract=off", "-shared", "-I", me.parent, "-o", new, "-x", "c", "-", "-lm"],
+    flags = "-O2 -fopenmp -ffp-contract=off -shared -fPIC -x c - -lm".split()
+    subprocess.run([os.environ.get("CC", "cc"), "-I", me.parent, "-o", new, *flags],
                    input=source, text=True, check=True)
     new.replace(built)
 library = C.CDLL(str(built))
