@@ -5,13 +5,13 @@ command -v pandoc >/dev/null ||
     { echo "note: pandoc is missing (make deps-docs): no site, no PDF"; exit 0; }
 site=${BUILD:-build}/site pdf=${BUILD:-build}/rt.pdf
 chapters=$(basename -s .md docs/[0-9]*.md)
-others="window mistakes words report teaching performance correctness"
+others="window python mistakes words report teaching performance correctness"
 rm -rf "$site"
 mkdir -p "$site" || exit 1
 cp -r docs/images docs/site.css "$site" || exit 1
 
 # What the pages link to in the repository.
-sed -n 's/.*\](\(\.\.\/[^)#]*\).*/\1/p; s/.*\](\(mistakes\/[^)#]*\).*/docs\/\1/p' docs/*.md README.md |
+sed -n 's/.*\](\(\.\.\/[^)#]*\).*/\1/p; s/.*\](\(mistakes\/[^)#]*\).*/docs\/\1/p; s/.*\](\(python\/[^)#]*\).*/docs\/\1/p' docs/*.md README.md |
     sed 's/^\.\.\///' | sort -u | while read -r file; do
     case $file in docs/*.md | README.md | *..*) ;; *) [ -e "$file" ] && mkdir -p "$site/$(dirname "$file")" &&
         cp -r "$file" "$site/$(dirname "$file")/" ;; esac

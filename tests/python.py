@@ -23,33 +23,43 @@ def run(source, *flags):
     return subprocess.run("./program", check=True, capture_output=True, text=True).stdout
 
 
+def zero(kind):
+    """The initialiser with a 0 for each field. C wants all of them, see below."""
+    if not issubclass(kind, ctypes.Structure):
+        return "0"
+    return "{" + ", ".join(zero(part) for _, part in kind._fields_) + "}"
+
+
 def structs():
     """Each struct of rt.py has the size of rt.h's, each field its place, size and kind."""
-    here, code = [], []
+    here, zeros, code = [], [], []
     for s in vars(rt).values():
         if not (isinstance(s, type) and issubclass(s, ctypes.Structure)):
             continue
         name = s.__name__
         here.append(f"{name} {ctypes.sizeof(s)}")
         code.append(f'printf("{name} %zu\\n", sizeof({name}));')
+        zeros.append(f"const {name} no_{name} = {zero(s)};")
         for field, kind in s._fields_:
-            place, is_float = getattr(s, field), int(kind is ctypes.c_float)
-            here.append(f"{name}.{field} {place.offset} {place.size} {is_float}")
+            place = getattr(s, field)
+            here.append(f"{name}.{field} {place.offset} {place.size} {kind is ctypes.c_float:d}")
             code.append(f'printf("{name}.{field} %zu %zu %d\\n", offsetof({name}, {field}),'
-                        f" sizeof(({name} *)0)->{field},"
-                        f" _Generic((({name} *)0)->{field}, float: 1, default: 0));")
-    there = run('#include "rt.h"\n#include <stddef.h>\n#include <stdio.h>\n'
-                "int main(void) {" + "\n".join(code) + "}", "-std=c11").splitlines()
+                        f" sizeof no_{name}.{field},"
+                        f" _Generic(no_{name}.{field}, float: 1, default: 0));")
+    # A field that is missing where C leaves a gap changes no size: hence the zeros.
+    there = run('#include "rt.h"\n#include <stddef.h>\n#include <stdio.h>\n' + "\n".join(zeros)
+                + "\nint main(void) {" + "\n".join(code) + "}",
+                "-std=c11", "-Werror=missing-field-initializers").splitlines()
     assert len(here) > 50
-    different = [f"rt.py: {a}, rt.h: {b}" for a, b in zip(here, there, strict=True) if a != b]
-    assert not different, "\n".join(different)
+    different = [f"rt.py: {a}, rt.h: {b}" for a, b in zip(here, there) if a != b]
+    assert not different and len(here) == len(there), "\n".join(different)
 
 
 def functions():
     """Each public function that a compiler finds in rt.h can be found from Python."""
     subprocess.run(["gcc", "-O0", "-fkeep-inline-functions", "-DRT_IMPLEMENTATION", "-c",
                     "-o", "rt.o", "-x", "c", "rt.h"], check=True)
-    symbols = subprocess.run(["nm", "rt.o"], check=True, capture_output=True, text=True).stdout
+    symbols = subprocess.run(["nm", "rt.o"], check=True, stdout=subprocess.PIPE, text=True).stdout
     found = 0
     for kind, name in (line.split()[-2:] for line in symbols.splitlines()):
         if kind in "tT" and name.startswith("rt_") and not name.startswith("rt__"):
@@ -87,7 +97,8 @@ def page(path):
 
 def stopped_by(exception, start=lambda: None):
     """A picture that is stopped keeps its samples, and goes on to the same bits."""
-    scene = rt.scene(spheres=[((0, 0, -5), 1, ((0.8, 0.8, 0.8), False))], background=(1, 1, 1))
+    ball = ((0, 0, -5), 1, ((0.8, 0.8, 0.8), False))
+    scene = rt.scene(spheres=[ball], background=(1, 1, 1))
     image, pixels = rt.image(320, 240)
     start()
     try:
@@ -107,7 +118,7 @@ def stopped_by(exception, start=lambda: None):
 
 def stopped():
     class BrokenBar:
-        n = 0
+        breaks, n = True, 0
 
         def __init__(self, **options):
             pass
@@ -120,16 +131,16 @@ def stopped():
 
         def update(self, more):
             if self.breaks:
-                type(self).breaks = False
+                BrokenBar.breaks = False
                 raise ZeroDivisionError
 
     def soon():
         threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
 
-    bars = {rt.tqdm, None}
-    for rt.tqdm in bars:
-        stopped_by(KeyboardInterrupt, soon)
-    BrokenBar.breaks, rt.tqdm = True, BrokenBar
+    stopped_by(KeyboardInterrupt, soon)  # with tqdm, if it is there
+    rt.tqdm = None
+    stopped_by(KeyboardInterrupt, soon)
+    rt.tqdm = BrokenBar
     stopped_by(ZeroDivisionError)
 
 
