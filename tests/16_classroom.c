@@ -268,7 +268,7 @@ static void test_why_it_does_not_compile(void **state)
     write_with("compiles", "#include __FILE__\n");
     expect_run(0,
                "links.c: does not compile\n         undefined reference to `nowhere|"
-               "assembles.c: does not compile\n|no such instruction: `no_such_thing'|"
+               "assembles.c: does not compile\n|no_such_thing'|"
                "compiles.c: does not compile\n         submission.c:6",
                "grade \"$OLDPWD\"/more");
     assert_int_equal(run("rm -r more; sed '/define rt_reflect/d; "
