@@ -41,7 +41,7 @@ export OMP_WAIT_POLICY ?= passive
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09 demo10 \
            demo11 demo12 demo13 demo14 demo15 demo16 demo17
 HEADERS := rt.h $(wildcard demos/*.h)
-PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files load platform progress window viewer)
+PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files load parts platform progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
 .PHONY: help deps demos test golden check bench bench-rays docs deps-docs web deps-web windows starters try grade install clean $(DEMOS)

@@ -27,6 +27,8 @@ void command_help(const demo *d)
            "                from chapter 10 the default; --no-denoise turns it off\n"
            "  --exposure EV brighter by EV stops, each twice the light; below 0 darker\n"
            "%s%s"
+           "  --part K/N    only part K of N, in a file beside that of --out\n"
+           "  --join N      no rays: make the picture of its N parts\n"
            "  --no-window   only render and write\n"
            "  --preview     draw the picture in the terminal, too, as it refines\n"
            "  --quiet       print nothing but errors\n"
@@ -147,6 +149,42 @@ static bool parse_pixel(const demo *d, const char *word, settings *s)
     return s->explain;
 }
 
+/* K/N, with K from 1 to N. */
+static bool parse_part(const demo *d, const char *word, settings *s)
+{
+    const size_t k = word ? strspn(word, "0123456789") : 0;
+    const bool good = k > 0 && word[k] == '/' && word[k + 1] != '\0' &&
+                      strspn(word + k + 1, "0123456789") == strlen(word + k + 1);
+    if (good) {
+        s->part = strtoll(word, NULL, 10);
+        s->parts = strtoll(word + k + 1, NULL, 10);
+    }
+    if (good && s->part >= 1 && s->part <= s->parts && s->parts <= COMMAND_PIXELS)
+        return true;
+    fprintf(stderr, "%s: --part: '%s' is not K/N, a part of so many: 1/4 to 4/4\n",
+            d->name, word ? word : "");
+    return false;
+}
+
+/* What goes together with parts? */
+static bool check_parts(const demo *d, const settings *s)
+{
+    const char *name = s->part > 0 ? "--part" : "--join", *why = NULL;
+    if (s->parts == 0)
+        return true;
+    if (s->error > 0.0f || s->seconds > 0.0f)
+        why = "not with --error or --time, by which each part would have other samples";
+    else if (s->explain)
+        why = "not with --explain";
+    else if (s->part > 0 && s->preview)
+        why = "not with --preview";
+    else if (s->parts > s->width * s->height)
+        why = "there are more parts than pixels";
+    if (why)
+        fprintf(stderr, "%s: %s: %s\n", d->name, name, why);
+    return !why;
+}
+
 bool command_parse(const demo *d, int argc, char **argv, settings *s)
 {
     const struct {
@@ -171,6 +209,15 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
                 return false;
         } else if (strcmp(arg, "--bounces") == 0) {
             if (!parse_bounces(d, argv[++i], &s->bounces))
+                return false;
+        } else if (strcmp(arg, "--part") == 0 || strcmp(arg, "--join") == 0) {
+            if (s->parts > 0)
+                return fprintf(stderr, "%s: %s: one part or one join at a time\n",
+                               d->name, arg),
+                       false;
+            if (arg[2] == 'p'
+                    ? !parse_part(d, argv[++i], s)
+                    : !parse_number(d, arg, argv[++i], 1, COMMAND_PIXELS, &s->parts))
                 return false;
         } else if (strcmp(arg, "--error") == 0) {
             if (!parse_decimal(d, arg, argv[++i], "wanted error", &s->error))
@@ -265,6 +312,8 @@ bool command_parse(const demo *d, int argc, char **argv, settings *s)
         return fprintf(stderr, "%s: --samples: '1': --denoise needs 2 or more\n",
                        d->name),
                false;
+    if (!check_parts(d, s))
+        return false;
     const char *dot = strrchr(s->out, '.');
     if (!dot || (strcmp(dot, ".png") != 0 && strcmp(dot, ".pfm") != 0)) {
         fprintf(stderr, "%s: --out: '%s' does not end in .png or .pfm\n", d->name,

@@ -13,6 +13,8 @@ typedef struct settings {
     float exposure;       /* in stops */
     rt_sampler sampler;
     const char *out, *texture, *mesh; /* files; NULL: none */
+    long long part, parts; /* render part of so many parts; with part 0, join them; 0, 0:
+                              neither */
     bool window, preview, quiet, help, explain, denoise;
     bool told_to_denoise; /* not only by default */
     long x, y;            /* the pixel to explain */

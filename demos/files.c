@@ -34,6 +34,8 @@ static bool replace(const char *who, const char *new, const char *path, const ch
     return !why;
 }
 
+enum { MOST = 10000 };
+
 /* Open a new file in the folder of path, to be renamed; free *name. NULL, with errno, on
  * failure. */
 static FILE *open_beside(const char *path, char **name)
@@ -42,7 +44,7 @@ static FILE *open_beside(const char *path, char **name)
     const size_t size = (size_t)folder + 32;
     FILE *file = NULL;
     *name = strlen(path) < INT_MAX ? malloc(size) : NULL;
-    for (int i = 1; *name && !file && i < 100; i++) {
+    for (int i = 1; *name && !file && i < MOST; i++) { /* many may write at once */
         snprintf(*name, size, "%.*s.rt-%d.part", folder, path, i);
         file = platform_open(*name, "wbx"); /* x: never an existing file */
         if (!file && errno != EEXIST)
@@ -78,7 +80,7 @@ bool files_can_write(const char *who, const char *path)
     return good;
 }
 
-static bool write_file(const char *who, const char *given, const void *bytes, size_t size)
+bool files_write(const char *who, const char *given, const void *bytes, size_t size)
 {
     char *name = NULL, *real = platform_behind(given);
     const char *path = real ? real : given;
@@ -130,7 +132,7 @@ bool files_save_pfm(const char *who, const char *path, int width, int height,
                     *p++ = (unsigned char)(bits >> shift);
             }
         }
-    const bool good = write_file(who, path, file, size);
+    const bool good = files_write(who, path, file, size);
     free(file);
     return good;
 }
@@ -145,7 +147,7 @@ bool files_save_png(const char *who, const char *path, int width, int height,
         errno = ENOMEM;
         return file_error(who, path);
     }
-    const bool good = write_file(who, path, file, (size_t)size);
+    const bool good = files_write(who, path, file, (size_t)size);
     free(file);
     return good;
 }

@@ -3,6 +3,7 @@
 #include "command.h"
 #include "files.h"
 #include "load.h"
+#include "parts.h"
 #include "platform.h"
 #include "progress.h"
 #include "viewer.h"
@@ -46,7 +47,8 @@ static bool failed(const run *r, rt_status status)
 static int bad_pixels(const rt_image *image)
 {
     int count = 0;
-    for (int i = 0; i < image->width * image->height; i++) {
+    const int all = image->count > 0 ? image->count : image->width * image->height;
+    for (int i = 0; i < all; i++) {
         const rt_vec3 v = image->pixels[i];
         count +=
             !(fabsf(v.x) <= FLT_MAX && fabsf(v.y) <= FLT_MAX && fabsf(v.z) <= FLT_MAX);
@@ -147,13 +149,10 @@ static void print_job(const run *r)
     fflush(stdout);
 }
 
-/* Finish up: the rendering is done, was interrupted, or failed. */
-static bool complete(run *r, rt_status status, double took)
+/* Finish the picture and write it; how says in words how it was made. */
+static bool finish_and_save(run *r, const char *how, const char *end)
 {
     viewer *v = &r->v;
-    progress_end(&r->p);
-    if (status != RT_OK && status != RT_CANCELLED)
-        return failed(r, status);
     double finishing = demo_seconds();
     if (r->s.denoise && v->image.samples >= 2 && viewer_finish(v) != RT_OK)
         return failed(r, RT_NO_MEMORY);
@@ -166,18 +165,174 @@ static bool complete(run *r, rt_status status, double took)
     if (!save(r))
         return false;
     if (!r->s.quiet) {
-        char result[100];
-        demo_text out = text_in(result, sizeof result);
-        viewer_say_samples(&v->image, rt_image_error(&v->image), &out);
-        printf("%s: %.2f s, %s, %.1f million rays per second, ", v->d->name, took, result,
-               (double)v->image.rays / took * 1e-6);
+        printf("%s: %s, ", v->d->name, how);
         if (clean)
             printf("finished in %.2f s: error at most %.2f %%, ", finishing,
                    100.0 * (double)viewer_clean_error(v));
-        printf("wrote %s%s\n", r->s.out, status == RT_CANCELLED ? " (interrupted)" : "");
+        printf("wrote %s%s\n", r->s.out, end);
     }
     fflush(stdout);
     return true;
+}
+
+/* Finish up: the rendering is done, was interrupted, or failed. */
+static bool complete(run *r, rt_status status, double took)
+{
+    const rt_image *image = &r->v.image;
+    char how[200];
+    demo_text out = text_in(how, sizeof how);
+    progress_end(&r->p);
+    if (status != RT_OK && status != RT_CANCELLED)
+        return failed(r, status);
+    if (!r->s.quiet) {
+        text_add(&out, "%.2f s, ", took);
+        viewer_say_samples(image, rt_image_error(image), &out);
+        text_add(&out, ", %.1f million rays per second",
+                 (double)image->rays / took * 1e-6);
+    }
+    return finish_and_save(r, how, status == RT_CANCELLED ? " (interrupted)" : "");
+}
+
+/* -------------------------------------------------------------------------------------
+ * A part of it, and the picture of all parts
+ * ------------------------------------------------------------------------------------- */
+
+enum { LINES = 500 };
+
+/* The lines that parts of this picture begin with. */
+static rt_status describe(const run *r, demo_text *lines)
+{
+    viewer small;
+    rt_options options = r->v.options;
+    const int samples = options.samples;
+    options.samples = 1;
+    if (!viewer_open(&small, r->v.d, 32, 24, &options, false))
+        return RT_NO_MEMORY;
+    const rt_status status = viewer_render(&small, &options);
+    options.samples = samples;
+    parts_describe(lines, r->v.d->name, &options, &r->v.image, parts_sum(&small.image));
+    viewer_close(&small);
+    return status;
+}
+
+/* How many of the parts are there? */
+static int count_parts(const settings *s)
+{
+    int there = 0;
+    for (int k = 1; k <= s->parts; k++) {
+        char *path = parts_path(s->out, k, (int)s->parts);
+        there += path && platform_look(path, NULL) == A_FILE;
+        free(path);
+    }
+    return there;
+}
+
+static int render_missing_part(run *r, const char *path, const char *lines)
+{
+    viewer *v = &r->v;
+    rt_options options = v->options;
+    if (!files_can_write(v->d->name, path))
+        return FAILED;
+    options.progress = keep_going;
+    options.user = r;
+    r->p.started = demo_seconds();
+    const rt_status status = viewer_render(v, &options);
+    progress_end(&r->p);
+    const int bad = bad_pixels(&v->image);
+    if (status == RT_CANCELLED) {
+        if (!r->s.quiet)
+            printf("%s: interrupted, part %lld of %lld is not written\n", v->d->name,
+                   r->s.part, r->s.parts);
+        return INTERRUPTED;
+    }
+    if (status != RT_OK)
+        return failed(r, status), FAILED;
+    if (bad > 0)
+        fprintf(stderr, "%s: '%s' is not written: %d of %d pixels are NaN or infinite\n",
+                v->d->name, path, bad, v->image.count);
+    if (bad > 0 || !parts_write(v->d->name, path, lines, &v->image))
+        return FAILED;
+    if (!r->s.quiet)
+        printf("%s: part %lld of %lld, %.2f s, wrote %s; %d of %lld are there\n",
+               v->d->name, r->s.part, r->s.parts, demo_seconds() - r->p.started, path,
+               count_parts(&r->s), r->s.parts);
+    return DONE;
+}
+
+static int render_part(run *r, const char *lines)
+{
+    const char *name = r->v.d->name;
+    char why[300];
+    demo_text out = text_in(why, sizeof why);
+    char *path = parts_path(r->s.out, (int)r->s.part, (int)r->s.parts);
+    if (!path)
+        return failed(r, RT_NO_MEMORY), FAILED;
+    parts_cut(&r->v.image, (int)r->s.part, (int)r->s.parts);
+    const parts_state state = parts_read(path, lines, &r->v.image, &out);
+    int result = DONE;
+    if (state == PART_WHOLE && !r->s.quiet)
+        printf("%s: part %lld of %lld is there already: %s\n", name, r->s.part,
+               r->s.parts, path);
+    if (state == PART_DAMAGED && !r->s.quiet)
+        printf("%s: '%s': %s; once more\n", name, path, why);
+    if (state == PART_OTHER) {
+        fprintf(stderr, "%s: '%s': %s\n", name, path, why);
+        result = FAILED;
+    } else if (state != PART_WHOLE) {
+        rt_image_clear(&r->v.image);
+        result = render_missing_part(r, path, lines);
+    }
+    free(path);
+    return result;
+}
+
+/* Read a part into its place in the picture. */
+static bool read_part(run *r, int k, const char *lines)
+{
+    rt_image *image = &r->v.image, part = *image;
+    char why[300];
+    demo_text out = text_in(why, sizeof why);
+    char *path = parts_path(r->s.out, k, (int)r->s.parts);
+    if (!path)
+        return failed(r, RT_NO_MEMORY);
+    parts_cut(&part, k, (int)r->s.parts);
+    part.pixels += part.first;
+    part.half = part.half ? part.half + part.first : NULL;
+    part.guides = part.guides ? part.guides + part.first : NULL;
+    const bool good = parts_read(path, lines, &part, &out) == PART_WHOLE;
+    if (good)
+        image->rays += part.rays;
+    else
+        fprintf(stderr, "%s: cannot join '%s': %s (%d of %lld parts are there)\n",
+                r->v.d->name, path, why, count_parts(&r->s), r->s.parts);
+    free(path);
+    return good;
+}
+
+static int join_parts(run *r, const char *lines)
+{
+    viewer *v = &r->v;
+    char how[200];
+    demo_text out = text_in(how, sizeof how);
+    for (int k = 1; k <= r->s.parts; k++)
+        if (!read_part(r, k, lines))
+            return FAILED;
+    v->image.samples = v->options.samples;
+    text_add(&out, "%lld part%s, ", r->s.parts, viewer_plural(r->s.parts));
+    viewer_say_samples(&v->image, rt_image_error(&v->image), &out);
+    text_add(&out, ", %.1f million rays", (double)v->image.rays * 1e-6);
+    return finish_and_save(r, how, "") ? DONE : FAILED;
+}
+
+static int part_or_join(run *r)
+{
+    char lines[LINES];
+    demo_text out = text_in(lines, sizeof lines);
+    const rt_status status = describe(r, &out);
+    if (status != RT_OK)
+        return failed(r, status), FAILED;
+    platform_on_interrupt(interrupt);
+    return r->s.part > 0 ? render_part(r, lines) : join_parts(r, lines);
 }
 
 /* -------------------------------------------------------------------------------------
@@ -458,7 +613,7 @@ static int run_demo(int argc, char **argv, const demo *d)
         command_help(d);
         return fflush(stdout) == 0 ? DONE : FAILED;
     }
-    if (!r.s.explain && !files_can_write(d->name, r.s.out))
+    if (!r.s.explain && r.s.part == 0 && !files_can_write(d->name, r.s.out))
         return FAILED;
     if (r.s.texture && !wrap_texture(d, r.s.texture))
         return FAILED;
@@ -475,7 +630,7 @@ static int run_demo(int argc, char **argv, const demo *d)
     if (r.bytes &&
         viewer_open(&r.v, d, (int)r.s.width, (int)r.s.height, &options, r.s.denoise)) {
         r.v.exposure = r.v.first_exposure = r.s.exposure;
-        result = r.s.explain ? explain(&r) : show(&r);
+        result = r.s.explain ? explain(&r) : r.s.parts > 0 ? part_or_join(&r) : show(&r);
         viewer_close(&r.v);
     } else {
         fprintf(stderr, "%s: not enough memory for %lld x %lld pixels\n", d->name,

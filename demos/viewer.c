@@ -161,7 +161,10 @@ rt_status viewer_render(viewer *v, const rt_options *options)
     if (v->d->render || !v->denoise || image->samples == begun)
         return status;
     /* These pixels have no guides. rt.h looks for them, with the same numbers. */
-    rt_image same = {.width = image->width, .height = image->height};
+    rt_image same = {.width = image->width,
+                     .height = image->height,
+                     .first = image->first,
+                     .count = image->count};
     rt_options again = *options;
     again.samples = image->samples;
     again.error = again.seconds = 0.0f;
