@@ -40,14 +40,17 @@ export OMP_WAIT_POLICY ?= passive
 
 DEMOS    = demo01 demo02 demo03 demo04 demo05 demo06 demo07 demo08 demo09 demo10 \
            demo11 demo12 demo13 demo14 demo15 demo16 demo17
+# Chapter 18 has no picture of its own; mpicc compiles it, if it is there.
+MPICC    = $(shell command -v mpicc)
+MPIRUN   = mpirun -np 2
 HEADERS := rt.h $(wildcard demos/*.h)
 PROGRAM  = $(patsubst %,$(BUILD)/%.o,main command files load parts platform progress window viewer)
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/[0-9]*.c)))
 
-.PHONY: help deps demos test golden check bench bench-rays docs deps-docs web deps-web windows starters try grade install clean $(DEMOS)
+.PHONY: help deps demos test golden check bench bench-rays docs deps-docs web deps-web deps-mpi demo18 cluster windows starters try grade install clean $(DEMOS)
 
 help: ## this list
-	@echo '  make demo01 ... demo17  build and run a chapter; ARGS="1280 960 --samples 64"'
+	@echo '  make demo01 ... demo18  build and run a chapter; ARGS="1280 960 --samples 64"'
 	@sed -n 's/^\([a-z%-]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    awk -F'|' '{ printf "  make %-18s %s\n", $$1, $$2 }'
 
@@ -60,7 +63,10 @@ deps-web: ## the same for "make web": clang, lld and wasi-libc, node, npm, chrom
 deps-docs: ## the same for the site and the PDF of "make docs": pandoc, chromium, pdfinfo, a maths font
 	@.ci/deps docs
 
-ifneq (,$(filter deps deps-web deps-docs,$(MAKECMDGOALS)))
+deps-mpi: ## the same for "make cluster": Open MPI
+	@.ci/deps mpi
+
+ifneq (,$(filter deps deps-web deps-docs deps-mpi,$(MAKECMDGOALS)))
 .NOTPARALLEL: # with -j, too, "deps" comes first
 endif
 
@@ -71,6 +77,17 @@ demos: $(DEMOS:%=$(BUILD)/%) ## render all to build/, without windows
 
 $(DEMOS): %: $(BUILD)/%
 	$(BUILD)/$@ $(ARGS)
+
+$(BUILD)/demo18: demos/demo18_many_machines.c $(BUILD)/program.a $(HEADERS)
+	$(or $(MPICC),$(CC)) $(FLAGS) $(MPICC:%=-DHAVE_MPI) $(OPENMP) -o $@ $< $(BUILD)/program.a $(LIBS) -lm
+
+demo18: $(BUILD)/demo18
+	$(BUILD)/demo18 $(ARGS)
+
+cluster: $(BUILD)/demo18 ## chapter 18 by MPI, two processes; or MPIRUN="mpirun -np 4"
+	@command -v mpirun >/dev/null || { echo "make: mpirun is missing: run 'make deps-mpi'" >&2; exit 1; }
+	[ "$$(id -u)" != 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; \
+	    $(MPIRUN) $(BUILD)/demo18 --no-window $(ARGS)
 
 .SECONDEXPANSION:
 $(DEMOS:%=$(BUILD)/%): $(BUILD)/%: $$(wildcard demos/$$*_*.c) $(BUILD)/program.a $(HEADERS)

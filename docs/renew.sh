@@ -42,7 +42,7 @@ function whole(path,    line, status, result) {
     while ((status = (getline line < path)) > 0) result = result line "\n"
     close(path)
     if (status < 0) fail("cannot read " path)
-    return "```" (path ~ /[.]py$/ ? "python" : "c") "\n" result "```"
+    return "```" (path ~ /[.]py$/ ? "python" : path ~ /[.]sh$/ ? "sh" : "c") "\n" result "```"
 }
 function numbers(name, key,    path, line, status, result, fence) { # without a key: the rest
     path = build "/numbers/" name ".txt"

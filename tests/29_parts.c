@@ -322,7 +322,7 @@ static void test_a_full_disk_leaves_no_part(void **state)
                          "1 --quiet --out f.png --part 1/2"),
                      1);
     assert_non_null(strstr(said, "cannot write 'f-part-1-of-2.part': File too large"));
-    assert_int_equal(run("ls f-part-* .rt-*"), 2);
+    assert_int_equal(run("ls -A | grep -E 'f-part|rt-'"), 1);
     expect(1, "cannot write 'nowhere/f-part-1-of-2.part': No such file",
            "demo07 8000 8000 --samples 1000 --out nowhere/f.png --part 1/2");
 }
@@ -336,7 +336,7 @@ static void test_ctrl_c_leaves_no_part(void **state)
             "status=$?; cat log.txt; exit $status"),
         130);
     assert_non_null(strstr(said, "interrupted, part 1 of 2 is not written"));
-    assert_int_equal(run("ls c-part-* .rt-*"), 2);
+    assert_int_equal(run("ls -A | grep -E 'c-part|rt-'"), 1);
 }
 
 int main(void)

@@ -1,0 +1,90 @@
+/* Demo 18: many machines.
+ *
+ * Before  one machine, with all its cores.
+ * Now     any number, by messages: each takes the next part of the picture from a counter
+ *         that all share, and in the end the picture is their sum.
+ * Run     make deps-mpi cluster                    (or ARGS="--samples 256") */
+#include "live.h"
+#include "machines.h"
+
+#ifdef HAVE_MPI
+enum { PART = 1024 }; /* pixels */
+
+/* Add to the counter, which is in the memory of machine 0; what was it before? */
+static int take(MPI_Win counter, int step)
+{
+    int number;
+    MPI_Fetch_and_op(&step, &number, MPI_INT, 0, 0, MPI_SUM, counter);
+    MPI_Win_flush(0, counter);
+    return number;
+}
+
+/* A number is 0 except on the machine that has computed it, so the sums are exact. */
+static void bring_home(void *mine, int count, MPI_Datatype type)
+{
+    MPI_Reduce(machine == 0 ? MPI_IN_PLACE : mine, mine, count, type, MPI_SUM, 0,
+               MPI_COMM_WORLD);
+}
+
+/* All machines call this at the same time. */
+static rt_status render_together(const rt_options *options, rt_image *image)
+{
+    const int all = image->width * image->height, parts = (all - 1) / PART + 1;
+    rt_status status = RT_OK;
+    int *memory, k;
+    MPI_Win counter;
+    MPI_Win_allocate(sizeof *memory, sizeof *memory, MPI_INFO_NULL, MPI_COMM_WORLD,
+                     &memory, &counter);
+    *memory = 0;
+    MPI_Barrier(MPI_COMM_WORLD);
+    MPI_Win_lock_all(0, counter);
+    while (status == RT_OK && (k = take(counter, 1)) < parts) {
+        rt_options mine = *options;
+        rt_image part = *image; /* its size, and its rays so far */
+        part.first = k * PART;
+        part.count = k < parts - 1 ? PART : all - part.first;
+        part.pixels += part.first;
+        whole w = {options, part.first, part.count, all};
+        mine.progress = of_the_whole;
+        mine.user = &w;
+        status = rt_render(&scene_indirect, &room_camera, &mine, &part);
+        image->rays = part.rays;
+    }
+    if (status != RT_OK)
+        take(counter, parts); /* the others may stop, too */
+    MPI_Win_unlock_all(counter);
+    MPI_Win_free(&counter);
+    bring_home(image->pixels, 3 * all, MPI_FLOAT);
+    bring_home(&image->rays, 1, MPI_UINT64_T);
+    image->samples = status == RT_OK ? options->samples : 0;
+    return status;
+}
+#endif
+
+static rt_status render(const rt_options *options, rt_image *image)
+{
+#ifdef HAVE_MPI
+    if (others_can_help(options, image))
+        return call_all(render_together, options, image);
+#endif
+    return rt_render(&scene_indirect, &room_camera, options, image);
+}
+
+int main(int argc, char **argv)
+{
+    const demo d = {.name = "demo18",
+                    .title = "18. Many machines",
+                    .render = render,
+                    .live = &live_room,
+                    .stage = 7,
+                    .encode = demo_gamma,
+                    .samples = 64,
+                    .bounces = 5,
+                    .sobol = true};
+#ifdef HAVE_MPI
+    return run_on_all(argc, argv, &d, render_together);
+#else
+    fprintf(stderr, "demo18: made without MPI: alone (make deps-mpi, make cluster)\n");
+    return demo_main(argc, argv, &d);
+#endif
+}
