@@ -43,6 +43,7 @@ contents() { # NAME of the page that shows them
 
 page() { # SOURCE NAME DEMO
     contents "$2" >"$site/contents.html"
+    [ -e "docs/images/$3.png" ] || set -- "$1" "$2" # chapter 18 has no picture of its own
     demo=${live:+$3} routines=${edit:+$(docs/live/routines.sh "${3#demo}")}
     pandoc -f gfm-tex_math_dollars -t html5 -s --mathml --lua-filter docs/site.lua --css site.css \
         --include-before-body "$site/contents.html" \
