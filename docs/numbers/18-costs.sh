@@ -20,19 +20,25 @@ two=$(fastest "seq 60 | xargs -P 2 -I@ build/demo08 $options --part @/60")
 mkdir -p $folder/join && for k in $(seq 60); do # where the parts stay
     build/demo08 $options --part $k/60 --out $folder/join/a.png || exit
 done
+again=$(fastest "for k in \$(seq 60); do build/demo08 $options --part \$k/60 --out $folder/join/a.png; done")
 join=$(fastest "build/demo08 $options --join 60 --out $folder/join/a.png")
+few="--samples 1 --threads 1 --quiet" # and many parts, to see what one more costs
+for n in 60 600; do
+    for k in $(seq $n); do build/demo08 $few --part $k/$n --out $folder/join/b.png || exit; done
+    eval "join$n=\$(fastest 'for i in 1 2 3 4 5 6 7 8 9 10; do build/demo08 $few --join $n --out $folder/join/b.png; done')"
+done
 for n in 1 2 4; do eval "mpi$n=\$(fastest 'mpirun -np $n build/demo18 $options --no-window')"; done
-awk -v whole="$whole" -v parts="$parts" -v two="$two" -v join="$join" -v mpi1="$mpi1" \
+awk -v whole="$whole" -v parts="$parts" -v two="$two" -v again="$again" -v join="$join" -v join60="$join60" -v join600="$join600" -v mpi1="$mpi1" \
     -v mpi2="$mpi2" -v mpi4="$mpi4" 'BEGIN {
     print "| 640×480, 64 samples, one thread in each process | seconds |\n|---|---|"
     printf "| one process | %.2f |\n| 60 parts, one after the other | %.2f |\n", whole, parts
-    printf "| 60 parts, two at a time | %.2f |\n| to join them | %.2f |\n", two, join
+    printf "| 60 parts, two at a time | %.2f |\n| 60 parts that are there already | %.2f |\n| to join them | %.2f |\n", two, again, join
     printf "| MPI, 1 process | %.2f |\n| MPI, 2 processes | %.2f |\n| MPI, 4 processes | %.2f |\n", mpi1, mpi2, mpi4
-    c = (parts - whole) / 60; j = join / 60
-    printf "part-ms: %.0f\njoin-ms: %.1f\n", 1000 * c, 1000 * j
+    c = again / 60; j = (join600 - join60) / 5400; J = join - 60 * j
+    printf "part-ms: %.0f\njoin-ms: %.3f\n", 1000 * c, 1000 * j
     N = 1000; T = 36000; p = int(sqrt(T / (c / N + j)))
-    t = T / N + T / p + p * (c / N + j)
+    t = T / N + T / p + p * (c / N + j) + J
     printf "best: %.0f\nhours: %.0f\ntime: %.0f\nuse: %.0f\n", p, T / 3600, t, 100 * T / N / t
-    T = 60; p = int(sqrt(T / (c / N + j))); t = T / N + T / p + p * (c / N + j)
-    printf "minute-best: %.0f\nminute-time: %.1f\nminute-use: %.0f\n", p, t, 100 * T / N / t
+    T = 60; p = int(sqrt(T / (c / N + j))); t = T / N + T / p + p * (c / N + j) + J
+    printf "minute-best: %.0f\nminute-time: %.2f\nminute-use: %.0f\n", p, t, 100 * T / N / t
 }'
