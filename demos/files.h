@@ -7,7 +7,7 @@
 
 /* Can this file be written? Asked before the rendering, not after it. */
 bool files_can_write(const char *who, const char *path);
-bool files_write(const char *who, const char *path, const void *bytes, size_t size);
+bool files_write(const char *who, const char *given, const void *bytes, size_t size);
 /* PNG, from 3 bytes per pixel; PFM, if the name ends in .pfm, from the pixels
  * themselves. */
 bool files_is_pfm(const char *path);

@@ -212,9 +212,10 @@ static parts_state read_floats(const unsigned char *file, size_t size, size_t us
     char *end;
     part->rays = strtoull((const char *)file + used, &end, 10);
     used = (size_t)((unsigned char *)end - file) + 1;
-    if (size != used + bytes + SUM) {
+    const size_t wanted = used + bytes + SUM;
+    if (size != wanted) {
         text_add(why, "it has %llu bytes instead of %llu", (unsigned long long)size,
-                 (unsigned long long)(used + bytes + SUM));
+                 (unsigned long long)wanted);
         return PART_DAMAGED;
     }
     if (sum_of(file, size - SUM) != get_bits(file + size - SUM, SUM)) {
