@@ -21,7 +21,7 @@ $(cat)
 </html>
 END
 }
-for chapter in docs/[01]*.md; do
+for chapter in docs/0*.md docs/1[0-7]*.md; do
     number=$(basename "$chapter" | cut -c1-2)
     title=$(sed -n '1s/^# //p' "$chapter")
     alt=$(sed -n "s/^!\\[\\(.*\\)\\](images\\/demo$number\\.png)\$/\\1/p" "$chapter")

@@ -42,13 +42,13 @@ if [ -f "$parts/SDL2/SDL_ttf.h" ] && [ -n "$font" ]; then
     cp "$parts/SDL2_ttf.dll" "$font" "$build/windows" || exit
 fi
 demos=$(ls demos/demo[0-9]*.c | sed "s|demos/\(demo[0-9]*\)_.*|$parts/\1|")
-make -s BUILD="$parts" CC="$cc" MACHINE= OPENMP=-fopenmp SDL="$sdl" ASSIMP= LIBS="$libs" $demos || exit
+make -s BUILD="$parts" CC="$cc" MACHINE= MPICC= OPENMP=-fopenmp SDL="$sdl" ASSIMP= LIBS="$libs" $demos || exit
 for demo in $demos; do
     cp "$demo.exe" "$build/windows" || exit
 done
 sed 's/$/\r/' >"$build/windows/README.txt" <<'END'
 The demos of rt.h, a ray tracer in one C header. Unpack the folder; keep its files together.
-A double click on demo01.exe to demo17.exe opens a chapter's picture in a window: h shows the keys.
+A double click on demo01.exe to demo18.exe opens a chapter's picture in a window: h shows the keys.
 If Windows warns of a program that it does not know: More info, Run anyway.
 In a terminal: demo09.exe 1280 960 --samples 64 (demo09.exe --help lists what there is).
 The picture is written beside the program, demo09.png for demo09.exe, or where --out says.
