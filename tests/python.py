@@ -134,6 +134,8 @@ def stopped():
                 BrokenBar.breaks = False
                 raise ZeroDivisionError
 
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background it is ignored
+
     def soon():
         threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
 
