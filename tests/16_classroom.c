@@ -158,12 +158,19 @@ static void test_no_name_clashes(void **state)
                "#define in incident\n"
                "#define r normal\n"
                "static rt_vec3 take_vec(rt_vec3 a) { return a; }\n"
+               "int write;\n"
                "float read(float a) { return a * (float)(M_PI / M_PI); }\n"
                "static inline rt_vec3 my_reflect(rt_vec3 in, rt_vec3 r)\n"
                "{ return take_vec(rt_sub(in, rt_scale(r, read(2 * rt_dot(in, r))))); }\n"
                "int main(void) { return 1; }\n");
     expect_run(0, "names.c                      -     -     -     -     -   2/2",
                "grade \"$OLDPWD\"/names.c");
+    /* with older compilers, to which a global without a value is common to all files */
+    assert_int_equal(run("cd \"$TOP\" && CC='cc -fcommon' BUILD=\"$OLDPWD\"/b "
+                         "OUT=\"$OLDPWD\"/b/marks.csv "
+                         "tests/classroom/run grade \"$OLDPWD\"/names.c"),
+                     0);
+    assert_non_null(strstr(said, " 2/2"));
 }
 
 /* 200 right answers, as they were once asked, know nothing of others. */
