@@ -21,8 +21,9 @@ $(cat)
 </html>
 END
 }
-for chapter in docs/0*.md docs/1[0-7]*.md; do
+for chapter in docs/[01]*.md; do
     number=$(basename "$chapter" | cut -c1-2)
+    [ -e "docs/images/demo$number.png" ] || continue
     title=$(sed -n '1s/^# //p' "$chapter")
     alt=$(sed -n "s/^!\\[\\(.*\\)\\](images\\/demo$number\\.png)\$/\\1/p" "$chapter")
     try=$(sed -n 's/^\*\*\(Try this:\)\*\*/\1/p' "$chapter" | tr -d '*`')
