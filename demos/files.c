@@ -24,7 +24,7 @@ static bool file_error(const char *who, const char *path)
     return false;
 }
 
-/* The picture is not lost then. */
+/* The picture takes its name. If it cannot, it stays under the other one. */
 static bool replace(const char *who, const char *new, const char *path, const char *given)
 {
     const char *why = platform_replace(new, path);
@@ -34,8 +34,6 @@ static bool replace(const char *who, const char *new, const char *path, const ch
     return !why;
 }
 
-enum { MOST = 10000 };
-
 /* Open a new file in the folder of path, to be renamed; free *name. NULL, with errno, on
  * failure. */
 static FILE *open_beside(const char *path, char **name)
@@ -44,7 +42,7 @@ static FILE *open_beside(const char *path, char **name)
     const size_t size = (size_t)folder + 32;
     FILE *file = NULL;
     *name = strlen(path) < INT_MAX ? malloc(size) : NULL;
-    for (int i = 1; *name && !file && i < MOST; i++) { /* many may write at once */
+    for (int i = 1; *name && !file && i < 10000; i++) { /* many may write at once */
         snprintf(*name, size, "%.*s.rt-%d.part", folder, path, i);
         file = platform_open(*name, "wbx"); /* x: never an existing file */
         if (!file && errno != EEXIST)

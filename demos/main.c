@@ -203,14 +203,13 @@ enum { LINES = 500 };
 static rt_status describe(const run *r, demo_text *lines)
 {
     viewer small;
-    rt_options options = r->v.options;
-    const int samples = options.samples;
-    options.samples = 1;
-    if (!viewer_open(&small, r->v.d, 32, 24, &options, false))
+    rt_options once = r->v.options;
+    once.samples = 1;
+    if (!viewer_open(&small, r->v.d, 32, 24, &once, false))
         return RT_NO_MEMORY;
-    const rt_status status = viewer_render(&small, &options);
-    options.samples = samples;
-    parts_describe(lines, r->v.d->name, &options, &r->v.image, parts_sum(&small.image));
+    const rt_status status = viewer_render(&small, &once);
+    parts_describe(lines, r->v.d->name, &r->v.options, &r->v.image,
+                   parts_sum(&small.image));
     viewer_close(&small);
     return status;
 }

@@ -8,8 +8,8 @@
 
 /* Returns the words of the command line; from now on the terminal takes UTF-8. */
 char **platform_begin(int *argc, char **argv);
-/* The terminal is as before. One that closes together with this program, after a double click,
- * waits if it has an error to show. */
+/* Puts the terminal back as it was. A terminal that closes together with this program, as after a
+ * double click, first waits if it has an error to show. */
 void platform_end(bool good);
 /* Ctrl-C, or a wish to end the program, calls stop; the second one ends it. A closed pipe is an
  * error like any other, not the end. */

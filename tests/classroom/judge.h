@@ -45,8 +45,7 @@ static bool make_question(question *q, int number, uint32_t seed)
         return forget(q), false;
     uint32_t state = first_state = rt_hash(seed + rt_hash((uint32_t)number));
     for (int k = 0; k < q->count; k++) {
-        float in
-            [MAX_IN]; /* kinds for several routines make what the longest of them needs */
+        float in[MAX_IN]; /* a kind for several routines makes what the longest takes */
         q->kind->make(in, k, &state);
         memcpy(q->in + k * q->ins, in, (size_t)q->ins * sizeof *in);
     }
