@@ -124,6 +124,11 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/rt.o $(wildcard tests/*.h) $(HEADERS) $(wil
 	$(CC) $(FLAGS) -Wno-double-promotion -Wno-enum-float-conversion $(OPENMP) -o $@ $< \
 	    $(if $(WHOLE),,-DLINKED $(BUILD)/rt.o) $(LDFLAGS) $(CMOCKA) -lm
 
+$(BUILD)/tests/29_parts: $(BUILD)/tests/broken
+$(BUILD)/tests/broken: tests/broken.c $(BUILD)/program.a $(HEADERS)
+	@mkdir -p $(BUILD)/tests
+	$(CC) $(FLAGS) $(OPENMP) -o $@ $< $(BUILD)/program.a $(LIBS) -lm
+
 # --------------------------------------------------------------------------- the classroom
 
 export FILE SEED ONLY OUT SCENE

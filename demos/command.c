@@ -28,6 +28,7 @@ void command_help(const demo *d)
            "  --exposure EV brighter by EV stops, each twice the light; below 0 darker\n"
            "%s%s"
            "  --part K/N    only part K of N, in a file beside that of --out\n"
+           "  --part all/N  all parts that are not there yet, one after the other\n"
            "  --join N      make the picture from its N parts, without rendering\n"
            "  --no-window   only render and write\n"
            "  --preview     draw the picture in the terminal, too, as it refines\n"
@@ -149,19 +150,22 @@ static bool parse_pixel(const demo *d, const char *word, settings *s)
     return s->explain;
 }
 
-/* K/N, with K from 1 to N. */
+/* K/N, with K from 1 to N, or all/N. */
 static bool parse_part(const demo *d, const char *word, settings *s)
 {
-    const size_t k = word ? strspn(word, "0123456789") : 0;
+    const bool all = word && strncmp(word, "all/", 4) == 0;
+    const size_t k = all ? 3 : word ? strspn(word, "0123456789") : 0;
     const bool good = k > 0 && word[k] == '/' && word[k + 1] != '\0' &&
                       strspn(word + k + 1, "0123456789") == strlen(word + k + 1);
     if (good) {
-        s->part = strtoll(word, NULL, 10);
+        s->part = all ? ALL_PARTS : strtoll(word, NULL, 10);
         s->parts = strtoll(word + k + 1, NULL, 10);
     }
-    if (good && s->part >= 1 && s->part <= s->parts && s->parts <= COMMAND_PIXELS)
+    if (good && s->part != 0 && s->part <= s->parts && s->parts >= 1 &&
+        s->parts <= COMMAND_PIXELS)
         return true;
-    fprintf(stderr, "%s: --part: '%s' is not K/N, a part of so many: 1/4 to 4/4\n",
+    fprintf(stderr,
+            "%s: --part: '%s' is not K/N, a part of so many: 1/4 to 4/4, or all/4\n",
             d->name, word ? word : "");
     return false;
 }
@@ -169,14 +173,14 @@ static bool parse_part(const demo *d, const char *word, settings *s)
 /* What goes together with parts? */
 static bool check_parts(const demo *d, const settings *s)
 {
-    const char *name = s->part > 0 ? "--part" : "--join", *why = NULL;
+    const char *name = s->part != 0 ? "--part" : "--join", *why = NULL;
     if (s->parts == 0)
         return true;
     if (s->error > 0.0f || s->seconds > 0.0f)
         why = "not with --error or --time, by which each part would have other samples";
     else if (s->explain)
         why = "not with --explain";
-    else if (s->part > 0 && s->preview)
+    else if (s->part != 0 && s->preview)
         why = "not with --preview";
     else if (s->parts > s->width * s->height)
         why = "there are more parts than pixels";

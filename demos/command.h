@@ -4,7 +4,7 @@
 
 #include "demo.h"
 
-enum { COMMAND_PIXELS = 67108864 }; /* at most: 8192 x 8192 */
+enum { COMMAND_PIXELS = 67108864 /* at most: 8192 x 8192 */, ALL_PARTS = -1 };
 
 typedef struct settings {
     long long width, height, bounces, threads, lanes, seed;
@@ -13,8 +13,8 @@ typedef struct settings {
     float exposure;       /* in stops */
     rt_sampler sampler;
     const char *out, *texture, *mesh; /* files; NULL: none */
-    long long part, parts; /* render part of so many parts; with part 0, join them; 0, 0:
-                              neither */
+    long long part, parts; /* render part of so many parts, or ALL_PARTS of them; with
+                              part 0, join them; 0, 0: neither */
     bool window, preview, quiet, help, explain, denoise;
     bool told_to_denoise; /* not only by default */
     long x, y;            /* the pixel to explain */

@@ -11,7 +11,7 @@
 enum { PART = 1024 }; /* pixels */
 
 /* Add to the counter, which is in the memory of machine 0; what was it before? */
-static int take(MPI_Win counter, int step)
+static int take(int step)
 {
     int number;
     MPI_Fetch_and_op(&step, &number, MPI_INT, 0, 0, MPI_SUM, counter);
@@ -19,10 +19,10 @@ static int take(MPI_Win counter, int step)
     return number;
 }
 
-/* A number is 0 except on the machine that has computed it, so the sums are exact. */
-static void bring_home(void *mine, int count, MPI_Datatype type)
+/* What all machines have, put together on machine 0. */
+static void bring_home(void *mine, int count, MPI_Datatype type, MPI_Op how)
 {
-    MPI_Reduce(machine == 0 ? MPI_IN_PLACE : mine, mine, count, type, MPI_SUM, 0,
+    MPI_Reduce(machine == 0 ? MPI_IN_PLACE : mine, mine, count, type, how, 0,
                MPI_COMM_WORLD);
 }
 
@@ -30,15 +30,8 @@ static void bring_home(void *mine, int count, MPI_Datatype type)
 static rt_status render_together(const rt_options *options, rt_image *image)
 {
     const int all = image->width * image->height, parts = (all - 1) / PART + 1;
-    rt_status status = RT_OK;
-    int *memory, k;
-    MPI_Win counter;
-    MPI_Win_allocate(sizeof *memory, sizeof *memory, MPI_INFO_NULL, MPI_COMM_WORLD,
-                     &memory, &counter);
-    *memory = 0;
-    MPI_Barrier(MPI_COMM_WORLD);
-    MPI_Win_lock_all(0, counter);
-    while (status == RT_OK && (k = take(counter, 1)) < parts) {
+    int status = RT_OK, k;
+    while (status == RT_OK && (k = take(1)) < parts) {
         rt_options mine = *options;
         rt_image part = *image; /* its size, and its rays so far */
         part.first = k * PART;
@@ -51,21 +44,31 @@ static rt_status render_together(const rt_options *options, rt_image *image)
         image->rays = part.rays;
     }
     if (status != RT_OK)
-        take(counter, parts); /* the others may stop, too */
-    MPI_Win_unlock_all(counter);
-    MPI_Win_free(&counter);
-    bring_home(image->pixels, 3 * all, MPI_FLOAT);
-    bring_home(&image->rays, 1, MPI_UINT64_T);
+        take(parts); /* the others may stop, too */
+    /* A number is 0 except on the machine that has computed it, so the sums are exact. */
+    bring_home(image->pixels, 3 * all, MPI_FLOAT, MPI_SUM);
+    bring_home(&image->rays, 1, MPI_UINT64_T, MPI_SUM);
+    bring_home(&status, 1, MPI_INT, MPI_MAX); /* RT_OK is the least */
     image->samples = status == RT_OK ? options->samples : 0;
-    return status;
+    return (rt_status)status;
+}
+
+/* The next part for --part all/N. */
+static int next_part(bool first)
+{
+    if (first && machine == 0)
+        tell((job){.order = THE_PARTS});
+    return take(1) + 1;
 }
 #endif
 
 static rt_status render(const rt_options *options, rt_image *image)
 {
 #ifdef HAVE_MPI
-    if (others_can_help(options, image))
-        return call_all(render_together, options, image);
+    if (others_can_help(options, image)) {
+        tell((job){A_PICTURE, image->width, image->height, *options});
+        return render_together(options, image);
+    }
 #endif
     return rt_render(&scene_indirect, &room_camera, options, image);
 }
@@ -75,6 +78,9 @@ int main(int argc, char **argv)
     const demo d = {.name = "demo18",
                     .title = "18. Many machines",
                     .render = render,
+#ifdef HAVE_MPI
+                    .next_part = next_part,
+#endif
                     .live = &live_room,
                     .stage = 7,
                     .encode = demo_gamma,

@@ -227,18 +227,18 @@ static bool ends_in(const char *path, const char *ending)
 static const char *refusal(const char *path)
 {
     static const char *const endings[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
-    long long size;
-    switch (platform_look(path, &size)) {
+    platform_info info;
+    switch (platform_look(path, &info)) {
     case NO_FILE: return strerror(errno);
     case A_FOLDER: return strerror(EISDIR);
     case A_DEVICE: return "it is not a file";
     case A_FILE: break;
     }
-    if (size > BYTES)
+    if (info.size > BYTES)
         return "it is larger than 500 MB";
     for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++)
         if (ends_in(path, endings[i]))
-            return size == 0 ? "it is empty" : NULL;
+            return info.size == 0 ? "it is empty" : NULL;
     return "its name does not end in .obj, .ply, .stl, .gltf or .glb";
 }
 

@@ -5,17 +5,25 @@
 
 #include "demo.h"
 
-#include <stdlib.h>
-
 #ifdef HAVE_MPI
+#include "platform.h"
+
 #include <mpi.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What machine 0 tells the others to do. */
+typedef enum order { END, A_PICTURE, THE_PARTS } order;
 
 typedef struct job {
-    int width, height; /* 0, 0: there are no more */
+    order order;
+    int width, height; /* of a picture */
     rt_options options;
 } job;
 
 static int machine, machines = 1; /* which one is this, and of how many? */
+static MPI_Win counter;           /* the memory on machine 0 that all count in */
 
 /* Progress in a part of the picture as progress in all of it. The parts come one after the other,
  * whoever takes them. */
@@ -32,50 +40,100 @@ static bool of_the_whole(void *user, float part)
            w->options->progress(w->options->user, done / (float)w->all);
 }
 
-/* On machine 0: tell all the others, and join in. They can help with a whole new picture. */
-static rt_status call_all(rt_status (*render)(const rt_options *, rt_image *),
-                          const rt_options *options, rt_image *image)
+static int take(int step);
+
+/* On machine 0, which then does it, too: the count begins at 0. */
+static void tell(job j)
 {
-    job j = {image->width, image->height, *options};
-    j.options.progress = NULL;
+    const int zero = 0;
+    MPI_Accumulate(&zero, 1, MPI_INT, 0, 0, 1, MPI_INT, MPI_REPLACE, counter);
+    MPI_Win_flush(0, counter);
     MPI_Bcast(&j, sizeof j, MPI_BYTE, 0, MPI_COMM_WORLD);
-    return render(options, image);
 }
 
+/* They can help with a whole new picture. */
 static bool others_can_help(const rt_options *options, const rt_image *image)
 {
-    return machines > 1 && image->count == 0 && image->samples == 0 && image->done == 0 &&
-           !image->half && !image->guides && options->error <= 0 && options->seconds <= 0;
+    return machine == 0 && machines > 1 && image->count == 0 && image->samples == 0 &&
+           image->done == 0 && !image->half && !image->guides && options->error <= 0 &&
+           options->seconds <= 0;
 }
 
-/* On all others: help until there are no more pictures. */
-static void help(rt_status (*render)(const rt_options *, rt_image *))
+static volatile sig_atomic_t stopped; /* mpirun passes on Ctrl-C as SIGTERM */
+
+static void stop(int signal)
 {
+    (void)signal;
+    stopped = 1;
+}
+
+static bool not_stopped(void *user, float part)
+{
+    (void)user;
+    (void)part;
+    return !stopped;
+}
+
+static void help_with_picture(rt_status (*render)(const rt_options *, rt_image *), job j)
+{
+    rt_image image = {.width = j.width, .height = j.height};
+    image.pixels = calloc((size_t)j.width * (size_t)j.height, sizeof *image.pixels);
+    if (!image.pixels)
+        MPI_Abort(MPI_COMM_WORLD, 1); /* all of them */
+    j.options.progress = not_stopped;
+    render(&j.options, &image);
+    free(image.pixels);
+}
+
+/* As machine 0 does, but that one speaks for all. */
+static int help_with_parts(int argc, char **argv, const demo *d)
+{
+    static char quiet[] = "--quiet";
+    char **words = calloc((size_t)argc + 2, sizeof *words);
+    if (!words)
+        MPI_Abort(MPI_COMM_WORLD, 1);
+    memcpy(words, argv, (size_t)argc * sizeof *words);
+    words[argc] = quiet;
+    const int result = demo_main(argc + 1, words, d);
+    free(words);
+    return result;
+}
+
+/* On all others: help until there is nothing more to do. */
+static int help(int argc, char **argv, const demo *d,
+                rt_status (*render)(const rt_options *, rt_image *))
+{
+    int result = 0;
     job j;
-    while (MPI_Bcast(&j, sizeof j, MPI_BYTE, 0, MPI_COMM_WORLD), j.width > 0) {
-        rt_image image = {.width = j.width, .height = j.height};
-        image.pixels = calloc((size_t)j.width * (size_t)j.height, sizeof *image.pixels);
-        if (!image.pixels)
-            MPI_Abort(MPI_COMM_WORLD, 1); /* all of them */
-        render(&j.options, &image);
-        free(image.pixels);
+    platform_on_interrupt(stop);
+    while (MPI_Bcast(&j, sizeof j, MPI_BYTE, 0, MPI_COMM_WORLD), j.order != END) {
+        if (j.order == A_PICTURE)
+            help_with_picture(render, j);
+        else
+            result = help_with_parts(argc, argv, d);
     }
+    return result;
 }
 
 static int run_on_all(int argc, char **argv, const demo *d,
                       rt_status (*render)(const rt_options *, rt_image *))
 {
-    int result = 0;
+    int result, *memory;
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &machine);
     MPI_Comm_size(MPI_COMM_WORLD, &machines);
+    MPI_Win_allocate(sizeof *memory, sizeof *memory, MPI_INFO_NULL, MPI_COMM_WORLD,
+                     &memory, &counter);
+    MPI_Win_lock_all(0, counter);
     if (machine == 0) {
-        job none = {0, 0, {0}};
         result = demo_main(argc, argv, d);
-        MPI_Bcast(&none, sizeof none, MPI_BYTE, 0, MPI_COMM_WORLD);
+        take(1 << 30); /* no parts after a failure */
+        tell((job){.order = END});
     } else {
-        help(render);
+        result = help(argc, argv, d, render);
     }
+    MPI_Win_unlock_all(counter);
+    MPI_Win_free(&counter);
     MPI_Finalize();
     return result;
 }

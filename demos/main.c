@@ -22,6 +22,10 @@ typedef struct run {
     progress p;
     window *win;          /* NULL: none */
     unsigned char *bytes; /* of what is saved */
+    int first;            /* the first part that was rendered; 0: none yet */
+    double done;          /* how much of the work, 0 to 1 */
+    double before,
+        share; /* how much was done before what is rendered now, and its share */
 } run;
 
 static volatile sig_atomic_t interrupted; /* by Ctrl-C or SIGTERM; a second one kills */
@@ -47,8 +51,8 @@ static bool failed(const run *r, rt_status status)
 static int bad_pixels(const rt_image *image)
 {
     int count = 0;
-    const int all = image->count > 0 ? image->count : image->width * image->height;
-    for (int i = 0; i < all; i++) {
+    const size_t all = parts_pixels(image);
+    for (size_t i = 0; i < all; i++) {
         const rt_vec3 v = image->pixels[i];
         count +=
             !(fabsf(v.x) <= FLT_MAX && fabsf(v.y) <= FLT_MAX && fabsf(v.z) <= FLT_MAX);
@@ -112,7 +116,8 @@ static bool keep_going(void *user, float part)
     if (!v->disturbed) {
         const bool early = r->s.samples == 0 && part < 0.01f;
         r->p.picture = viewer_picture(v);
-        progress_print(&r->p, demo_seconds(), (double)part, early ? v->image.samples : 0);
+        r->done = r->before + r->share * (double)part;
+        progress_print(&r->p, demo_seconds(), r->done, early ? v->image.samples : 0);
     }
     if (r->win) {
         window_poll(r->win, v);
@@ -179,7 +184,7 @@ static bool finish_and_save(run *r, const char *how, const char *end)
 static bool complete(run *r, rt_status status, double took)
 {
     const rt_image *image = &r->v.image;
-    char how[200];
+    char how[200], end[40] = "";
     demo_text out = text_in(how, sizeof how);
     progress_end(&r->p);
     if (status != RT_OK && status != RT_CANCELLED)
@@ -190,7 +195,9 @@ static bool complete(run *r, rt_status status, double took)
         text_add(&out, ", %.1f million rays per second",
                  (double)image->rays / took * 1e-6);
     }
-    return finish_and_save(r, how, status == RT_CANCELLED ? " (interrupted)" : "");
+    if (status == RT_CANCELLED)
+        snprintf(end, sizeof end, " (interrupted at %.0f %%)", 100.0 * r->done);
+    return finish_and_save(r, how, end);
 }
 
 /* -------------------------------------------------------------------------------------
@@ -214,19 +221,20 @@ static rt_status describe(const run *r, demo_text *lines)
     return status;
 }
 
-/* How many of the parts are there? */
-static int count_parts(const settings *s)
+/* Progress with all parts, if they are wanted: a part that was there took no time. */
+static void note_part(run *r, int k)
 {
-    int there = 0;
-    for (int k = 1; k <= s->parts; k++) {
-        char *path = parts_path(s->out, k, (int)s->parts);
-        there += path && platform_look(path, NULL) == A_FILE;
-        free(path);
+    if (r->first == 0) {
+        r->first = k;
+        r->p.started = demo_seconds();
     }
-    return there;
+    if (r->s.part == ALL_PARTS) {
+        r->share = 1.0 / (double)(r->s.parts - r->first + 1);
+        r->before = r->share * (k - r->first);
+    }
 }
 
-static int render_missing_part(run *r, const char *path, const char *lines)
+static int render_missing_part(run *r, int k, const char *path, const char *lines)
 {
     viewer *v = &r->v;
     rt_options options = v->options;
@@ -234,14 +242,16 @@ static int render_missing_part(run *r, const char *path, const char *lines)
         return FAILED;
     options.progress = keep_going;
     options.user = r;
-    r->p.started = demo_seconds();
+    const double start = demo_seconds();
+    note_part(r, k);
     const rt_status status = viewer_render(v, &options);
     progress_end(&r->p);
+    const double took = demo_seconds() - start;
     const int bad = bad_pixels(&v->image);
     if (status == RT_CANCELLED) {
         if (!r->s.quiet)
-            printf("%s: interrupted, part %lld of %lld is not written\n", v->d->name,
-                   r->s.part, r->s.parts);
+            printf("%s: interrupted, part %d of %lld is not written\n", v->d->name, k,
+                   r->s.parts);
         return INTERRUPTED;
     }
     if (status != RT_OK)
@@ -251,27 +261,31 @@ static int render_missing_part(run *r, const char *path, const char *lines)
                 v->d->name, path, bad, v->image.count);
     if (bad > 0 || !parts_write(v->d->name, path, lines, &v->image))
         return FAILED;
-    if (!r->s.quiet)
-        printf("%s: part %lld of %lld, %.2f s, wrote %s; %d of %lld are there\n",
-               v->d->name, r->s.part, r->s.parts, demo_seconds() - r->p.started, path,
-               count_parts(&r->s), r->s.parts);
+    if (!r->s.quiet) {
+        const parts_progress all = parts_look(r->s.out, k, (int)r->s.parts, took);
+        printf("%s: part %d of %lld, %.2f s, wrote %s; %d of %lld are there", v->d->name,
+               k, r->s.parts, took, path, all.there, r->s.parts);
+        if (all.left > 0.0)
+            printf(", %.0f s left", all.left);
+        printf("\n");
+        fflush(stdout);
+    }
     return DONE;
 }
 
-static int render_part(run *r, const char *lines)
+static int render_part(run *r, int k, const char *lines)
 {
     const char *name = r->v.d->name;
     char why[300];
     demo_text out = text_in(why, sizeof why);
-    char *path = parts_path(r->s.out, (int)r->s.part, (int)r->s.parts);
+    char *path = parts_path(r->s.out, k, (int)r->s.parts);
     if (!path)
         return failed(r, RT_NO_MEMORY), FAILED;
-    parts_cut(&r->v.image, (int)r->s.part, (int)r->s.parts);
+    parts_cut(&r->v.image, k, (int)r->s.parts);
     const parts_state state = parts_read(path, lines, &r->v.image, &out);
     int result = DONE;
     if (state == PART_WHOLE && !r->s.quiet)
-        printf("%s: part %lld of %lld is there already: %s\n", name, r->s.part,
-               r->s.parts, path);
+        printf("%s: part %d of %lld is there already: %s\n", name, k, r->s.parts, path);
     if (state == PART_DAMAGED && !r->s.quiet)
         printf("%s: '%s': %s; once more\n", name, path, why);
     if (state == PART_OTHER) {
@@ -279,10 +293,24 @@ static int render_part(run *r, const char *lines)
         result = FAILED;
     } else if (state != PART_WHOLE) {
         rt_image_clear(&r->v.image);
-        result = render_missing_part(r, path, lines);
+        result = render_missing_part(r, k, path, lines);
     }
     free(path);
     return result;
+}
+
+static int next_part(const demo *d, int before)
+{
+    return d->next_part ? d->next_part(before == 0) : before + 1;
+}
+
+/* All that nobody else takes, until one fails. */
+static int render_all_parts(run *r, const char *lines)
+{
+    int result = DONE, k = 0;
+    while (result == DONE && !interrupted && (k = next_part(r->v.d, k)) <= r->s.parts)
+        result = render_part(r, k, lines);
+    return interrupted ? INTERRUPTED : result;
 }
 
 /* Read a part into its place in the picture. */
@@ -303,7 +331,8 @@ static bool read_part(run *r, int k, const char *lines)
         image->rays += part.rays;
     else
         fprintf(stderr, "%s: cannot join '%s': %s (%d of %lld parts are there)\n",
-                r->v.d->name, path, why, count_parts(&r->s), r->s.parts);
+                r->v.d->name, path, why,
+                parts_look(r->s.out, 0, (int)r->s.parts, 0.0).there, r->s.parts);
     free(path);
     return good;
 }
@@ -331,7 +360,9 @@ static int part_or_join(run *r)
     if (status != RT_OK)
         return failed(r, status), FAILED;
     platform_on_interrupt(interrupt);
-    return r->s.part > 0 ? render_part(r, lines) : join_parts(r, lines);
+    return r->s.part == 0           ? join_parts(r, lines)
+           : r->s.part == ALL_PARTS ? render_all_parts(r, lines)
+                                    : render_part(r, (int)r->s.part, lines);
 }
 
 /* -------------------------------------------------------------------------------------
@@ -599,6 +630,7 @@ static int run_demo(int argc, char **argv, const demo *d)
     const bool at_the_top = platform_look("build", NULL) == A_FOLDER;
     snprintf(out, sizeof out, "%s%s.png", at_the_top ? "build/" : "", d->name);
     run r = {.v = {.d = d},
+             .share = 1.0,
              .s = {.width = 640,
                    .height = 480,
                    .bounces = d->bounces,

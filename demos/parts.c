@@ -27,6 +27,41 @@ char *parts_path(const char *picture, int k, int n)
     return path;
 }
 
+size_t parts_pixels(const rt_image *image)
+{
+    return image->count > 0 ? (size_t)image->count
+                            : (size_t)image->width * (size_t)image->height;
+}
+
+/* When its file was written, in seconds; -1: it is not there. */
+static double written(const char *picture, int k, int n)
+{
+    platform_info info;
+    char *path = parts_path(picture, k, n);
+    const bool there = path && platform_look(path, &info) == A_FILE;
+    free(path);
+    return there ? (double)info.written : -1.0;
+}
+
+parts_progress parts_look(const char *picture, int k, int n, double took)
+{
+    const double window = fmax(8.0 * took, 10.0);
+    const double now = written(picture, k, n);
+    double first = now;
+    int there = 0, lately = 0;
+    for (int i = 1; i <= n; i++) {
+        const double t = written(picture, i, n);
+        there += t >= 0.0;
+        if (t > now - window) {
+            lately++;
+            first = fmin(first, t);
+        }
+    }
+    const double span = fmin(window, now - first + took);
+    const bool known = k > 0 && span >= 2.0; /* files know only whole seconds */
+    return (parts_progress){there, known ? span / lately * (n - there) : 0.0};
+}
+
 /* -------------------------------------------------------------------------------------
  * Floats as bytes, the lowest first, and their sum
  * ------------------------------------------------------------------------------------- */
@@ -41,9 +76,7 @@ enum { ARRAYS = 3 };
 
 static size_t arrays_of(const rt_image *image, floats arrays[ARRAYS])
 {
-    const size_t pixels = image->count > 0 ? (size_t)image->count
-                                           : (size_t)image->width * (size_t)image->height;
-    const size_t vec = sizeof(rt_vec3) / sizeof(float);
+    const size_t pixels = parts_pixels(image), vec = sizeof(rt_vec3) / sizeof(float);
     const size_t guide = sizeof(rt_guide) / sizeof(float);
     arrays[0] = (floats){(float *)image->pixels, pixels * vec};
     arrays[1] = (floats){(float *)image->half, image->half ? pixels * vec : 0};
@@ -157,14 +190,14 @@ bool parts_write(const char *who, const char *path, const char *lines,
 /* The whole file; free it. NULL: it cannot be read, and errno says why. */
 static unsigned char *load(const char *path, size_t *size)
 {
-    long long length = 0;
-    const platform_kind kind = platform_look(path, &length);
+    platform_info info;
+    const platform_kind kind = platform_look(path, &info);
     if (kind == A_FOLDER || kind == A_DEVICE)
         errno = kind == A_FOLDER ? EISDIR : EINVAL;
     FILE *file = kind == A_FILE ? platform_open(path, "rb") : NULL;
-    unsigned char *bytes = file ? malloc((size_t)length + 1) : NULL;
+    unsigned char *bytes = file ? malloc((size_t)info.size + 1) : NULL;
     if (bytes) {
-        *size = fread(bytes, 1, (size_t)length, file);
+        *size = fread(bytes, 1, (size_t)info.size, file);
         bytes[*size] = '\0';
         if (ferror(file)) {
             free(bytes);

@@ -12,6 +12,18 @@ void parts_cut(rt_image *image, int k, int n);
 /* The name of its file, beside the picture's: "build/demo08-part-3-of-60.part". Free it. */
 char *parts_path(const char *picture, int k, int n);
 
+/* How many pixels the image holds: all, or its part. */
+size_t parts_pixels(const rt_image *image);
+
+typedef struct parts_progress {
+    int there;   /* of the n parts */
+    double left; /* seconds until all are there; 0: nobody can tell */
+} parts_progress;
+
+/* k is the part that was just written, and took the seconds for it; 0: none. The time left is
+ * for parts that come as quickly as the last ones did, on all machines together. */
+parts_progress parts_look(const char *picture, int k, int n, double took);
+
 /* The lines that say which picture it is. They have all that decides it; parts with other lines
  * are not joined. scene is parts_sum of the same picture in small: it stands for the scene, the
  * camera, and the code. */

@@ -96,20 +96,20 @@ void platform_remove(const char *path)
     _wremove(wide(path, name));
 }
 
-platform_kind platform_look(const char *path, long long *size)
+platform_kind platform_look(const char *path, platform_info *info)
 {
     wchar_t name[LONGEST];
-    struct _stat64 info;
+    struct _stat64 file;
     if (!*wide(path, name) || strpbrk(path, "?*<>|\"")) {
         errno = *name ? EINVAL : ENAMETOOLONG;
         return NO_FILE;
     }
-    if (_wstat64(name, &info) != 0)
+    if (_wstat64(name, &file) != 0)
         return NO_FILE;
-    if (size)
-        *size = info.st_size;
-    return info.st_mode & _S_IFDIR   ? A_FOLDER
-           : info.st_mode & _S_IFREG ? A_FILE
+    if (info)
+        *info = (platform_info){file.st_size, file.st_mtime};
+    return file.st_mode & _S_IFDIR   ? A_FOLDER
+           : file.st_mode & _S_IFREG ? A_FILE
                                      : A_DEVICE;
 }
 
@@ -216,14 +216,14 @@ void platform_remove(const char *path)
     remove(path);
 }
 
-platform_kind platform_look(const char *path, long long *size)
+platform_kind platform_look(const char *path, platform_info *info)
 {
-    struct stat info;
-    if (stat(path, &info) != 0)
+    struct stat file;
+    if (stat(path, &file) != 0)
         return NO_FILE;
-    if (size)
-        *size = info.st_size;
-    return S_ISDIR(info.st_mode) ? A_FOLDER : S_ISREG(info.st_mode) ? A_FILE : A_DEVICE;
+    if (info)
+        *info = (platform_info){file.st_size, file.st_mtime};
+    return S_ISDIR(file.st_mode) ? A_FOLDER : S_ISREG(file.st_mode) ? A_FILE : A_DEVICE;
 }
 
 int platform_folder(const char *path)

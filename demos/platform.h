@@ -22,8 +22,13 @@ void platform_remove(const char *path);
 
 typedef enum platform_kind { NO_FILE, A_FILE, A_FOLDER, A_DEVICE } platform_kind;
 
-/* What has this name? A file's size in bytes goes to *size, unless that is NULL. */
-platform_kind platform_look(const char *path, long long *size);
+typedef struct platform_info {
+    long long size;    /* in bytes */
+    long long written; /* when, in seconds since some moment */
+} platform_info;
+
+/* What has this name? More about a file goes to *info, unless that is NULL. */
+platform_kind platform_look(const char *path, platform_info *info);
 /* How long is the folder in the path, with the slash at its end? */
 int platform_folder(const char *path);
 /* The file behind a symbolic link; free it. NULL: there is no file yet. */

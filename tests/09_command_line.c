@@ -627,7 +627,7 @@ static void test_ctrl_c_saves_what_there_is(void **state)
         run_and_signal("INT",
                        "demo07 200 150 --samples 1000000000 --no-window --out c.png"),
         130);
-    assert_non_null(strstr(said, "wrote c.png (interrupted)"));
+    assert_non_null(strstr(said, "wrote c.png (interrupted at "));
     assert_true(exists("c.png"));
     assert_int_equal(run("ls .rt-*"), 2);
 }

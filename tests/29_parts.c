@@ -283,6 +283,14 @@ static void test_wrong_use(void **state)
         {"--part ''", "--part: '' is not K/N"},
         {"--part", "--part: '' is not K/N"},
         {"--part 3", "--part: '3' is not K/N"},
+        {"--part all", "--part: 'all' is not K/N"},
+        {"--part all/", "--part: 'all/' is not K/N"},
+        {"--part all/0", "--part: 'all/0' is not K/N"},
+        {"--part al/3", "--part: 'al/3' is not K/N"},
+        {"--part all/1201", "--part: there are more parts than pixels"},
+        {"--part all/2 --join 2", "one part or one join at a time"},
+        {"--part all/2 --time 1", "--part: not with --error or --time"},
+        {"--part all/2 --preview", "--part: not with --preview"},
         {"--part 3/", "--part: '3/' is not K/N"},
         {"--part /3", "--part: '/3' is not K/N"},
         {"--part -1/3", "--part: '-1/3' is not K/N"},
@@ -327,6 +335,76 @@ static void test_a_full_disk_leaves_no_part(void **state)
            "demo07 8000 8000 --samples 1000 --out nowhere/f.png --part 1/2");
 }
 
+static void test_pixels_without_a_value_are_not_written(void **state)
+{
+    (void)state;
+    const char *why = "'b-part-1-of-2.part' is not written: 30 of 100 pixels are NaN";
+    expect(1, why, "tests/broken 10 20 --out b.pfm --part 1/2");
+    expect(1, why, "tests/broken 10 20 --out b.pfm --part all/2");
+    assert_int_equal(run("ls -A | grep -E 'b-part|rt-'"), 1);
+    expect(0, "warning: 60 of 200 pixels are NaN",
+           "tests/broken 10 20 --no-window --out b.pfm");
+}
+
+/* ---- all that are missing ----------------------------------------------------------- */
+
+static void test_all_parts_one_after_the_other(void **state)
+{
+    (void)state;
+    assert_int_equal(run("rm -rf *"), 0);
+    expect(0, "wrote p-part-2-of-3.part; 1 of 3 are there", SMALL "--part 2/3");
+    expect(
+        0,
+        "wrote p-part-1-of-3.part; 2 of 3|part 2 of 3 is there|wrote p-part-3-of-3.part; "
+        "3 of 3",
+        SMALL "--part all/3");
+    expect(0, "3 parts", SMALL "--join 3");
+    expect(0, "", SMALL "--no-window --quiet --out whole.pfm");
+    assert_int_equal(run("cmp p.pfm whole.pfm"), 0);
+    assert_int_equal(run("cp p-part-1-of-3.part p-part-2-of-3.part; rm p-part-3*"), 0);
+    expect(1, "'p-part-2-of-3.part': it is another part", SMALL "--part all/3");
+    assert_false(exists("p-part-3-of-3.part"));
+}
+
+static void test_ctrl_c_leaves_the_parts_that_are_done(void **state)
+{
+    (void)state;
+    const char *all =
+        "demo08 160 120 --samples 2000 --threads 1 --out d.pfm --part all/30";
+    char line[600];
+    snprintf(line, sizeof line,
+             "\"$DEMOS\"/%s >log.txt 2>&1 & demo=$!; for i in $(seq 400); do "
+             "[ -e d-part-2-of-30.part ] && break; sleep 0.02; done; "
+             "kill -INT $demo; wait $demo; status=$?; cat log.txt; exit $status",
+             all);
+    assert_int_equal(run(line), 130);
+    assert_non_null(strstr(said, " of 30 is not written"));
+    const int done = count_of("wrote ");
+    assert_in_range(done, 2, 29);
+    expect(0, "30 of 30 are there", all);
+    assert_int_equal(count_of("is there already"), done);
+    assert_int_equal(count_of("wrote "), 30 - done);
+}
+
+/* Three parts came in the last six seconds, before this one, and another long ago: for the four
+ * that are missing it takes as long as for these four. */
+static void test_the_time_that_is_left(void **state)
+{
+    (void)state;
+    assert_int_equal(run("rm -rf *"), 0);
+    render_parts(SMALL, 5);
+    assert_int_equal(run("for k in 1 2 3 4 5; do mv p-part-$k-of-5.part "
+                         "p-part-$k-of-9.part; done; touch -d '1 hour ago' p-part-1-*; "
+                         "for k in 2 3 4; do touch -d \"$((10 - 2 * k)) seconds ago\" "
+                         "p-part-$k-*; done; rm p-part-5-*"),
+                     0);
+    expect(0, "5 of 9 are there, ", SMALL "--part 5/9");
+    const int left = atoi(strstr(said, "are there, ") + 11);
+    assert_in_range(left, 5, 8); /* 4 x 6 s / 4, or a second more */
+    expect(0, "", "demo08 40 30 --samples 2 --out q.pfm --part 1/2");
+    assert_null(strstr(said, " left")); /* nobody can tell */
+}
+
 static void test_ctrl_c_leaves_no_part(void **state)
 {
     (void)state;
@@ -353,6 +431,10 @@ int main(void)
         cmocka_unit_test(test_wrong_use),
         cmocka_unit_test(test_a_full_disk_leaves_no_part),
         cmocka_unit_test(test_ctrl_c_leaves_no_part),
+        cmocka_unit_test(test_pixels_without_a_value_are_not_written),
+        cmocka_unit_test(test_all_parts_one_after_the_other),
+        cmocka_unit_test(test_ctrl_c_leaves_the_parts_that_are_done),
+        cmocka_unit_test(test_the_time_that_is_left),
     };
     return cmocka_run_group_tests_name("parts of a picture", tests, set_up, tear_down);
 }
