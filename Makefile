@@ -84,6 +84,10 @@ $(BUILD)/demo18: demos/demo18_many_machines.c $(BUILD)/program.a $(HEADERS)
 demo18: $(BUILD)/demo18
 	$(BUILD)/demo18 $(ARGS)
 
+$(BUILD)/tests/machines: tests/machines.c demos/demo18_many_machines.c $(BUILD)/program.a $(HEADERS)
+	@mkdir -p $(BUILD)/tests
+	$(MPICC) $(FLAGS) -DHAVE_MPI $(OPENMP) -o $@ $< $(BUILD)/program.a $(LIBS) -lm
+
 cluster: $(BUILD)/demo18 ## chapter 18 by MPI, two processes; or MPIRUN="mpirun -np 4"
 	@command -v mpirun >/dev/null || { echo "make: mpirun is missing: run 'make deps-mpi'" >&2; exit 1; }
 	[ "$$(id -u)" != 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; \
