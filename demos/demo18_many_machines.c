@@ -66,7 +66,8 @@ static rt_status render(const rt_options *options, rt_image *image)
 {
 #ifdef HAVE_MPI
     if (others_can_help(options, image)) {
-        tell((job){A_PICTURE, image->width, image->height, *options});
+        tell(
+            (job){A_PICTURE, image->width, image->height, image->rest != NULL, *options});
         return render_together(options, image);
     }
 #endif

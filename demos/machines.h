@@ -19,6 +19,7 @@ typedef enum order { END, A_PICTURE, THE_PARTS } order;
 typedef struct job {
     order order;
     int width, height; /* of a picture */
+    bool rest;         /* it has image.rest */
     rt_options options;
 } job;
 
@@ -35,6 +36,8 @@ typedef struct whole {
 static bool of_the_whole(void *user, float part)
 {
     const whole *w = user;
+    int mail; /* let MPI look: the others may be waiting for this machine's counter */
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &mail, MPI_STATUS_IGNORE);
     const float done = (float)w->first + part * (float)w->count;
     return !w->options->progress ||
            w->options->progress(w->options->user, done / (float)w->all);
@@ -77,12 +80,15 @@ static bool not_stopped(void *user, float part)
 static void help_with_picture(rt_status (*render)(const rt_options *, rt_image *), job j)
 {
     rt_image image = {.width = j.width, .height = j.height};
-    image.pixels = calloc((size_t)j.width * (size_t)j.height, sizeof *image.pixels);
-    if (!image.pixels)
+    const size_t all = (size_t)j.width * (size_t)j.height;
+    image.pixels = calloc(all, sizeof *image.pixels);
+    image.rest = j.rest ? calloc(all, sizeof *image.rest) : NULL;
+    if (!image.pixels || (j.rest && !image.rest))
         MPI_Abort(MPI_COMM_WORLD, 1); /* all of them */
     j.options.progress = not_stopped;
     render(&j.options, &image);
     free(image.pixels);
+    free(image.rest);
 }
 
 /* As machine 0 does, but that one speaks for all. */

@@ -22,6 +22,7 @@ typedef struct run {
     progress p;
     window *win;          /* NULL: none */
     unsigned char *bytes; /* of what is saved */
+    uint64_t given;       /* a sum of what was read from files: the texture, the mesh */
     int first;            /* the first part that was rendered; 0: none yet */
     double done;          /* how much of the work, 0 to 1 */
     double before,
@@ -211,11 +212,11 @@ static rt_status describe(const run *r, demo_text *lines)
 {
     viewer small;
     rt_options once = r->v.options;
-    once.samples = 1;
-    if (!viewer_open(&small, r->v.d, 32, 24, &once, false))
+    once.samples = 4;
+    if (!viewer_open(&small, r->v.d, 64, 48, &once, false))
         return RT_NO_MEMORY;
     const rt_status status = viewer_render(&small, &once);
-    parts_describe(lines, r->v.d->name, &r->v.options, &r->v.image,
+    parts_describe(lines, r->v.d->name, &r->v.options, &r->v.image, r->given,
                    parts_sum(&small.image));
     viewer_close(&small);
     return status;
@@ -263,8 +264,10 @@ static int render_missing_part(run *r, int k, const char *path, const char *line
         return FAILED;
     if (!r->s.quiet) {
         const parts_progress all = parts_look(r->s.out, k, (int)r->s.parts, took);
-        printf("%s: part %d of %lld, %.2f s, wrote %s; %d of %lld are there", v->d->name,
-               k, r->s.parts, took, path, all.there, r->s.parts);
+        printf("%s: part %d of %lld, %.2f s, wrote %s", v->d->name, k, r->s.parts, took,
+               path);
+        if (all.there >= 0)
+            printf("; %d of %lld are there", all.there, r->s.parts);
         if (all.left > 0.0)
             printf(", %.0f s left", all.left);
         printf("\n");
@@ -313,6 +316,14 @@ static int render_all_parts(run *r, const char *lines)
     return interrupted ? INTERRUPTED : result;
 }
 
+/* " (3 of 4 parts are there)", if it is worth counting. */
+static void say_how_many(const run *r, demo_text *out)
+{
+    const int there = parts_look(r->s.out, 0, (int)r->s.parts, 0.0).there;
+    if (there >= 0)
+        text_add(out, " (%d of %lld parts are there)", there, r->s.parts);
+}
+
 /* Read a part into its place in the picture. */
 static bool read_part(run *r, int k, const char *lines)
 {
@@ -326,15 +337,16 @@ static bool read_part(run *r, int k, const char *lines)
     part.pixels += part.first;
     part.half = part.half ? part.half + part.first : NULL;
     part.guides = part.guides ? part.guides + part.first : NULL;
-    const bool good = parts_read(path, lines, &part, &out) == PART_WHOLE;
-    if (good)
+    const parts_state state = parts_read(path, lines, &part, &out);
+    if (state == PART_WHOLE) {
         image->rays += part.rays;
-    else
-        fprintf(stderr, "%s: cannot join '%s': %s (%d of %lld parts are there)\n",
-                r->v.d->name, path, why,
-                parts_look(r->s.out, 0, (int)r->s.parts, 0.0).there, r->s.parts);
+    } else {
+        if (state == PART_MISSING)
+            say_how_many(r, &out);
+        fprintf(stderr, "%s: cannot join '%s': %s\n", r->v.d->name, path, why);
+    }
     free(path);
-    return good;
+    return state == PART_WHOLE;
 }
 
 static int join_parts(run *r, const char *lines)
@@ -342,9 +354,14 @@ static int join_parts(run *r, const char *lines)
     viewer *v = &r->v;
     char how[200];
     demo_text out = text_in(how, sizeof how);
-    for (int k = 1; k <= r->s.parts; k++)
+    for (int k = 1; k <= r->s.parts; k++) {
+        if (interrupted) {
+            fprintf(stderr, "%s: interrupted, %s is not written\n", v->d->name, r->s.out);
+            return INTERRUPTED;
+        }
         if (!read_part(r, k, lines))
             return FAILED;
+    }
     v->image.samples = v->options.samples;
     text_add(&out, "%lld part%s, ", r->s.parts, viewer_plural(r->s.parts));
     viewer_say_samples(&v->image, rt_image_error(&v->image), &out);
@@ -597,20 +614,24 @@ static rt_options options_of(const settings *s)
 }
 
 /* The picture stays until the program ends. */
-static bool wrap_texture(const demo *d, const char *path)
+static bool wrap_texture(run *r, const char *path)
 {
+    const demo *d = r->v.d;
     int width, height;
     char who[80];
     snprintf(who, sizeof who, "%s: --texture", d->name);
     const rt_vec3 *pixels = files_load(who, path, &width, &height);
-    if (pixels)
+    if (pixels) {
+        r->given = parts_add(0, pixels, sizeof *pixels * (size_t)width * (size_t)height);
         d->texture(pixels, width, height);
+    }
     return pixels != NULL;
 }
 
 /* So does the mesh. Without assimp the demo shows a mesh of its own. */
-static bool take_mesh(const demo *d, const char *path)
+static bool take_mesh(run *r, const char *path)
 {
+    const demo *d = r->v.d;
     rt_mesh mesh;
     char who[80];
     snprintf(who, sizeof who, "%s: --mesh", d->name);
@@ -620,6 +641,10 @@ static bool take_mesh(const demo *d, const char *path)
     }
     if (!load_mesh(who, path, &mesh))
         return false;
+    const size_t positions = (size_t)mesh.position_count;
+    r->given = parts_add(0, mesh.positions, positions * sizeof *mesh.positions);
+    r->given = parts_add(r->given, mesh.indices,
+                         3 * (size_t)mesh.triangle_count * sizeof *mesh.indices);
     d->mesh(&mesh);
     return true;
 }
@@ -646,9 +671,9 @@ static int run_demo(int argc, char **argv, const demo *d)
     }
     if (!r.s.explain && r.s.part == 0 && !files_can_write(d->name, r.s.out))
         return FAILED;
-    if (r.s.texture && !wrap_texture(d, r.s.texture))
+    if (r.s.texture && !wrap_texture(&r, r.s.texture))
         return FAILED;
-    if (r.s.mesh && !take_mesh(d, r.s.mesh))
+    if (r.s.mesh && !take_mesh(&r, r.s.mesh))
         return FAILED;
     say_what_is_not(&r);
     if (r.s.samples == 0 && r.s.error == 0.0f && r.s.seconds == 0.0f)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEAD = 1000 /* bytes of text at most */, SUM = 8 };
+enum { HEAD = 1000 /* bytes of text at most */, SUM = 8, MOST_COUNTED = 1000 };
 
 void parts_cut(rt_image *image, int k, int n)
 {
@@ -49,6 +49,8 @@ parts_progress parts_look(const char *picture, int k, int n, double took)
     const double now = written(picture, k, n);
     double first = now;
     int there = 0, lately = 0;
+    if (n > MOST_COUNTED)
+        return (parts_progress){-1, 0.0};
     for (int i = 1; i <= n; i++) {
         const double t = written(picture, i, n);
         there += t >= 0.0;
@@ -116,11 +118,15 @@ static void get_floats(floats f, const unsigned char *from)
 }
 
 /* FNV-1a. It finds accidents, not forgeries. */
-static uint64_t sum_of(const unsigned char *bytes, size_t size)
+static uint64_t sum_of(const void *bytes, size_t size)
 {
-    uint64_t sum = UINT64_C(0xcbf29ce484222325);
+    return parts_add(UINT64_C(0xcbf29ce484222325), bytes, size);
+}
+
+uint64_t parts_add(uint64_t sum, const void *bytes, size_t size)
+{
     for (size_t i = 0; i < size; i++)
-        sum = (sum ^ bytes[i]) * UINT64_C(0x100000001b3);
+        sum = (sum ^ ((const unsigned char *)bytes)[i]) * UINT64_C(0x100000001b3);
     return sum;
 }
 
@@ -143,7 +149,7 @@ uint64_t parts_sum(const rt_image *image)
  * ------------------------------------------------------------------------------------- */
 
 void parts_describe(demo_text *lines, const char *demo, const rt_options *options,
-                    const rt_image *image, uint64_t scene)
+                    const rt_image *image, uint64_t given, uint64_t scene)
 {
     text_add(lines, "a part of a picture\nrt.h %d.%d.%d\n%s\n", RT_VERSION_MAJOR,
              RT_VERSION_MINOR, RT_VERSION_PATCH, demo);
@@ -151,8 +157,9 @@ void parts_describe(demo_text *lines, const char *demo, const rt_options *option
              image->width, image->height, options->samples, options->bounces,
              options->sampler == RT_RANDOM ? "random" : "sobol",
              (unsigned long long)options->seed);
-    text_add(lines, "half %s\nguides %s\nscene %016llx\n", image->half ? "yes" : "no",
-             image->guides ? "yes" : "no", (unsigned long long)scene);
+    text_add(lines, "half %s\nguides %s\ngiven %016llx\nscene %016llx\n",
+             image->half ? "yes" : "no", image->guides ? "yes" : "no",
+             (unsigned long long)given, (unsigned long long)scene);
 }
 
 /* The lines at the start of the file, up to the one that nobody knows before: the rays. */
@@ -187,18 +194,21 @@ bool parts_write(const char *who, const char *path, const char *lines,
     return good;
 }
 
-/* The whole file; free it. NULL: it cannot be read, and errno says why. */
-static unsigned char *load(const char *path, size_t *size)
+/* The file; free it. NULL: it cannot be read, and errno says why. If it is longer than most bytes,
+ * only so many are there, though size says its length. */
+static unsigned char *load(const char *path, size_t most, size_t *size)
 {
-    platform_info info;
+    platform_info info = {0, 0};
     const platform_kind kind = platform_look(path, &info);
+    const size_t length = (size_t)info.size, wanted = length < most ? length : most;
     if (kind == A_FOLDER || kind == A_DEVICE)
         errno = kind == A_FOLDER ? EISDIR : EINVAL;
     FILE *file = kind == A_FILE ? platform_open(path, "rb") : NULL;
-    unsigned char *bytes = file ? malloc((size_t)info.size + 1) : NULL;
+    unsigned char *bytes = file ? malloc(wanted + 1) : NULL;
     if (bytes) {
-        *size = fread(bytes, 1, (size_t)info.size, file);
-        bytes[*size] = '\0';
+        const size_t got = fread(bytes, 1, wanted, file);
+        *size = got < wanted ? got : length;
+        bytes[got] = '\0';
         if (ferror(file)) {
             free(bytes);
             bytes = NULL;
@@ -270,10 +280,12 @@ parts_state parts_read(const char *path, const char *lines, rt_image *part,
                        demo_text *why)
 {
     char head[HEAD];
+    floats arrays[ARRAYS];
     const size_t length = head_of(lines, part, head);
+    const size_t most = HEAD + 4 * arrays_of(part, arrays) + SUM;
     size_t size = 0, same = 0;
     errno = 0;
-    unsigned char *file = load(path, &size);
+    unsigned char *file = load(path, most, &size);
     if (!file) {
         text_add(why, "%s", errno ? strerror(errno) : "not enough memory");
         return errno == ENOENT ? PART_MISSING : PART_OTHER;

@@ -16,7 +16,7 @@ char *parts_path(const char *picture, int k, int n);
 size_t parts_pixels(const rt_image *image);
 
 typedef struct parts_progress {
-    int there;   /* of the n parts */
+    int there;   /* how many files; -1 with more than 1000 parts, as it would take long */
     double left; /* seconds until all are there; 0: nobody can tell */
 } parts_progress;
 
@@ -24,12 +24,15 @@ typedef struct parts_progress {
  * for parts that come as quickly as the last ones did, on all machines together. */
 parts_progress parts_look(const char *picture, int k, int n, double took);
 
-/* The lines that say which picture it is. They have all that decides it; parts with other lines
- * are not joined. scene is parts_sum of the same picture in small: it stands for the scene, the
- * camera, and the code. */
+/* The lines that say which picture it is; parts with other lines are not joined. given is the sum of
+ * what was read from files, the texture or the mesh. scene is parts_sum of the same picture in
+ * small: it stands for the scene, the camera, and the code, and finds most changes of them, not
+ * all. */
 void parts_describe(demo_text *lines, const char *demo, const rt_options *options,
-                    const rt_image *image, uint64_t scene);
+                    const rt_image *image, uint64_t given, uint64_t scene);
 uint64_t parts_sum(const rt_image *image);
+/* The sum so far, which begins with 0, with these bytes, too. */
+uint64_t parts_add(uint64_t sum, const void *bytes, size_t size);
 
 typedef enum parts_state {
     PART_WHOLE,

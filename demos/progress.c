@@ -75,6 +75,12 @@ void progress_print(progress *p, double now, double part, int samples)
         progress_preview(p);
         p->due = 0.0;
     }
+    char left[40] = "";
+    if (samples > 0)
+        snprintf(left, sizeof left, ", %d sample%s", samples, samples == 1 ? "" : "s");
+    else if (part > 0.0)
+        snprintf(left, sizeof left, ", %.0f s left",
+                 (now - p->started) * (1.0 - part) / part);
     if (platform_has_terminal()) {
         if (now < p->due)
             return;
@@ -83,14 +89,12 @@ void progress_print(progress *p, double now, double part, int samples)
         for (int i = 0; i < 30; i++)
             bar[i] = i < (int)(30.0 * part) ? '#' : '.';
         bar[30] = '\0';
-        fprintf(stderr, "\r\033[K[%s] %3.0f %%, ", bar, 100.0 * part);
-        if (samples > 0)
-            fprintf(stderr, "%d sample%s ", samples, samples == 1 ? "" : "s");
-        else
-            fprintf(stderr, "%.0f s left ", (now - p->started) * (1.0 - part) / part);
-    } else if (part < 1.0 && (int)(4.0 * part) > p->quarters) {
+        fprintf(stderr, "\r\033[K[%s] %3.0f %%%s ", bar, 100.0 * part, left);
+    } else if (part < 1.0 && ((int)(4.0 * part) > p->quarters ||
+                              now > fmax(p->started, p->due) + 60.0)) {
         p->quarters = (int)(4.0 * part);
-        fprintf(stderr, "%d %%\n", 25 * p->quarters);
+        p->due = now;
+        fprintf(stderr, "%.0f %%%s\n", floor(100.0 * part), left);
     }
 }
 

@@ -1,5 +1,5 @@
 /* Shows on stderr how far a picture is: a bar on a terminal, elsewhere a plain line after
- * every quarter; and the picture itself, if wanted. */
+ * every quarter and every minute; and the picture itself, if wanted. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
@@ -10,7 +10,7 @@ typedef struct progress {
     const rt_image *picture; /* for the preview, and its encoding: */
     unsigned char (*encode)(float value);
     double started; /* in seconds, like the others */
-    double due;     /* when the line may be printed again */
+    double due;     /* when the bar may be printed again; when the last plain line was */
     int quarters;   /* how many of the plain lines were printed */
     int preview_rows;
 } progress;

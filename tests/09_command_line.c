@@ -387,7 +387,7 @@ static void test_without_a_display_it_says_so_and_goes_on(void **state)
 static void test_plain_lines_when_piped(void **state)
 {
     (void)state;
-    expect(0, "25 %\n50 %\n75 %\n",
+    expect(0, "25 %, |50 %, |75 %, | s left\n",
            "demo07 160 120 --samples 40 --no-window --out p.png");
     assert_null(strchr(said, '\r'));
     assert_null(strchr(said, '\033'));

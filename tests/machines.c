@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FAILS_ON_ONE = 77 }; /* a seed */
+enum { FAILS_ON_ONE = 77 /* a seed */, SLOW = 1001 /* samples, which need image.rest */ };
 
 static rt_status render_or_fail(const rt_scene *scene, const rt_camera *camera,
                                 const rt_options *options, rt_image *image);
@@ -20,8 +20,52 @@ static rt_status render_or_fail(const rt_scene *scene, const rt_camera *camera,
 static rt_status render_or_fail(const rt_scene *scene, const rt_camera *camera,
                                 const rt_options *options, rt_image *image)
 {
+    static int parts = 0;
     const bool fails = options->seed == FAILS_ON_ONE && machine == 1 && image->rays > 0;
+    parts += options->samples == SLOW;
+    if (parts == 3 && machine > 0)
+        fprintf(stderr, "machine %d renders\n", machine);
     return fails ? RT_NO_MEMORY : rt_render(scene, camera, options, image);
+}
+
+static int failures;
+
+static void expect_that(bool holds, const char *what)
+{
+    if (!holds)
+        fprintf(stderr, "%d machines: %s: not so\n", machines, what);
+    failures += !holds;
+}
+
+enum { WIDTH = 150, HEIGHT = 101, ALL = WIDTH * HEIGHT };
+
+/* Render a picture by both ways, twice as many samples if it is to be resumed. */
+static void compare(const demo *d, rt_options options, bool half, bool rest, bool resumed,
+                    const char *what)
+{
+    static rt_vec3 memory[2][5][ALL];
+    rt_image images[2];
+    memset(memory, 0, sizeof memory);
+    for (int i = 0; i < 2; i++) {
+        images[i] = (rt_image){.width = WIDTH, .height = HEIGHT, .pixels = memory[i][0]};
+        images[i].half = half ? memory[i][1] : NULL;
+        images[i].rest = rest ? memory[i][2] : NULL;
+        rt_status status = RT_OK;
+        for (int times = resumed ? 2 : 1; status == RT_OK && times > 0; times--)
+            status = i == 0
+                         ? d->render(&options, &images[0])
+                         : rt_render(&scene_indirect, &room_camera, &options, &images[1]);
+        expect_that(status == RT_OK, what);
+    }
+    expect_that(memcmp(memory[0], memory[1], 2 * sizeof memory[0][0]) == 0, what);
+    expect_that(images[0].rays == images[1].rays && images[0].rays > 0, what);
+    expect_that(images[0].samples == images[1].samples, what);
+}
+
+static bool keep(void *user, float part)
+{
+    *(float *)user = part;
+    return true;
 }
 
 static bool until_half(void *user, float part)
@@ -30,43 +74,32 @@ static bool until_half(void *user, float part)
     return part < 0.5f;
 }
 
-static int failures;
-
-static void expect_that(bool holds, const char *what)
-{
-    if (!holds)
-        printf("%d machines: not so: %s\n", machines, what);
-    failures += !holds;
-}
-
 /* In the place of the demos' program. */
 int demo_main(int argc, char **argv, const demo *d)
 {
-    enum {
-        WIDTH = 150,
-        HEIGHT = 101,
-        ALL = WIDTH * HEIGHT,
-        PARTS = (ALL - 1) / PART + 1
-    };
-    static rt_vec3 pixels[ALL], expected[ALL];
-    rt_image image = {.width = WIDTH, .height = HEIGHT, .pixels = pixels};
-    rt_image alone = {.width = WIDTH, .height = HEIGHT, .pixels = expected};
-    rt_options options = {.samples = 8, .bounces = 5, .threads = 1};
+    static rt_vec3 pixels[ALL];
     (void)argc, (void)argv;
-    expect_that(d->render(&options, &image) == RT_OK, "a picture is rendered");
-    rt_render(&scene_indirect, &room_camera, &options, &alone);
-    expect_that(memcmp(pixels, expected, sizeof pixels) == 0,
-                "it has the bits of one machine");
-    expect_that(image.rays == alone.rays, "and its rays");
-    expect_that(image.samples == 8, "and its samples");
+    rt_options options = {.samples = 8, .bounces = 5, .threads = 1};
+    compare(d, options, false, false, false, "a picture");
+    compare(d, options, true, false, false, "a picture with half");
+    compare(d, options, false, false, true, "a picture resumed");
+    options.error = 0.5f;
+    compare(d, options, true, false, false, "a picture with an error");
+    options.error = 0.0f;
+    options.samples = SLOW;
+    compare(d, options, false, true, false, "a picture of many samples");
 
-    rt_image_clear(&image);
-    memset(pixels, 0, sizeof pixels);
-    options.samples = 100;
-    options.progress = until_half;
-    expect_that(d->render(&options, &image) == RT_CANCELLED,
-                "a picture can be cancelled");
-    expect_that(machines == 1 || take(0) >= PARTS, "then nobody takes another part");
+    float done = 0.0f;
+    options.progress = keep;
+    options.user = &done;
+    of_the_whole(&(whole){&options, 100, 50, 200}, 0.5f);
+    expect_that(done == 0.625f, "progress in a part is progress of the whole");
+
+    rt_image image = {.width = WIDTH, .height = HEIGHT, .pixels = pixels};
+    options =
+        (rt_options){.samples = 100, .bounces = 5, .threads = 1, .progress = until_half};
+    expect_that(d->render(&options, &image) == RT_CANCELLED, "a picture is cancelled");
+    expect_that(machines == 1 || take(0) > ALL / PART, "then nobody takes another part");
     expect_that(machines == 1 || image.samples == 0, "it has not all samples");
     expect_that(pixels[0].x > 0, "what was done is there");
 
