@@ -30,18 +30,21 @@ static void bring_home(void *mine, int count, MPI_Datatype type, MPI_Op how)
 static rt_status render_together(const rt_options *options, rt_image *image)
 {
     const int all = image->width * image->height, parts = (all - 1) / PART + 1;
-    int status = RT_OK, k;
-    while (status == RT_OK && (k = take(1)) < parts) {
+    int status = RT_OK, k, step = 1; /* parts at a time */
+    while (status == RT_OK && (k = take(step)) < parts) {
         rt_options mine = *options;
         rt_image part = *image; /* its size, and its rays so far */
+        const double start = demo_seconds();
         part.first = k * PART;
-        part.count = k < parts - 1 ? PART : all - part.first;
+        part.count = k + step < parts ? step * PART : all - part.first;
         part.pixels += part.first;
         whole w = {options, part.first, part.count, all};
         mine.progress = of_the_whole;
         mine.user = &w;
         status = rt_render(&scene_indirect, &room_camera, &mine, &part);
         image->rays = part.rays;
+        if (demo_seconds() - start < 0.1)
+            step *= 2; /* to ask takes time, too */
     }
     if (status != RT_OK)
         take(parts); /* the others may stop, too */

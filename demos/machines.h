@@ -125,6 +125,10 @@ static int run_on_all(int argc, char **argv, const demo *d,
                       rt_status (*render)(const rt_options *, rt_image *))
 {
     int result, *memory;
+#if defined OMPI_MAJOR_VERSION && OMPI_MAJOR_VERSION == 4
+    /* What is the default between machines fails there: open-mpi/ompi, issues 9871 and 11466. */
+    platform_set_default("OMPI_MCA_osc", "^rdma");
+#endif
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &machine);
     MPI_Comm_size(MPI_COMM_WORLD, &machines);

@@ -79,6 +79,12 @@ void platform_on_interrupt(void (*stop)(int signal))
     signal(SIGINT, stop); /* once: then it is as it was */
 }
 
+void platform_set_default(const char *name, const char *value)
+{
+    if (!getenv(name))
+        _putenv_s(name, value);
+}
+
 /* _wfopen of older Windows does not know the x of "wbx". */
 FILE *platform_open(const char *path, const char *mode)
 {
@@ -204,6 +210,11 @@ void platform_on_interrupt(void (*stop)(int signal))
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     signal(SIGPIPE, SIG_IGN);
+}
+
+void platform_set_default(const char *name, const char *value)
+{
+    setenv(name, value, 0);
 }
 
 FILE *platform_open(const char *path, const char *mode)

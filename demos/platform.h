@@ -15,6 +15,9 @@ void platform_end(bool good);
  * error like any other, not the end. */
 void platform_on_interrupt(void (*stop)(int signal));
 
+/* Give a variable of the environment a value, unless it has one. */
+void platform_set_default(const char *name, const char *value);
+
 /* ---- files: those that fail set errno ------------------------------------------------ */
 
 FILE *platform_open(const char *path, const char *mode); /* as fopen */

@@ -19,6 +19,10 @@ for count in 1 2 3; do
     cmp "$folder/one.pfm" "$folder/mpi.pfm"
 done
 
+# Two machines with a network between them: the counter's machine must answer while it renders.
+tests/lab mpirun --hostfile lab "$PWD/build/tests/machines" >"$log" 2>&1
+if grep -q '^note:' "$log"; then cat "$log"; else grep -q 'machine 1 renders' "$log"; fi
+
 # Ctrl-C, which mpirun takes as it takes this signal: a picture of what there is.
 mpirun -np 2 build/demo18 --samples 100000 --threads 1 --no-window --out "$folder/some.png" >"$log" 2>&1 &
 until_there 'grep -q bounces "$log"'
