@@ -625,6 +625,117 @@ static void test_bad_parts(void **state)
         RT_OK);
 }
 
+/* Memory for a picture or a part of it, as much as rt.h asks for, between canaries. */
+enum { CANARY = 64, WORST = 1 << 15 /* bytes */ };
+
+typedef struct guarded {
+    unsigned char bytes[WORST];
+    size_t size;
+} guarded;
+
+static void *guard(guarded *g, size_t size)
+{
+    assert_in_range(size + 2 * CANARY, 0, WORST);
+    memset(g->bytes, 0xa5, sizeof g->bytes);
+    g->size = size;
+    return g->bytes + CANARY;
+}
+
+static void check_canaries(const guarded *g)
+{
+    for (size_t i = 0; i < WORST; i++)
+        if ((i < CANARY || i >= CANARY + g->size) && g->bytes[i] != 0xa5)
+            fail_msg("byte %ld of %zu is written", (long)i - CANARY, g->size);
+}
+
+typedef struct four_arrays {
+    guarded pixels, half, rest, guides;
+} four_arrays;
+
+/* All that an image can have, for count pixels. */
+static rt_image image_in(four_arrays *memory, int width, int height, int count)
+{
+    const size_t n = (size_t)count, vectors = n * sizeof(rt_vec3);
+    rt_image image = {.width = width, .height = height};
+    image.pixels = guard(&memory->pixels, vectors);
+    image.half = guard(&memory->half, vectors);
+    image.rest = guard(&memory->rest, 2 * vectors);
+    image.guides = guard(&memory->guides, n * sizeof(rt_guide));
+    return image;
+}
+
+/* Parts of odd sizes, with half, rest and guides: each has the whole's bits in all four,
+ * and writes to no other memory. */
+static void test_parts_with_a_rest(void **state)
+{
+    (void)state;
+    enum { W = 9, H = 7, ALL = W * H };
+    static four_arrays of_whole, of_part;
+    const int cuts[] = {0, 1, 2, 7, 20, 61, ALL};
+    const rt_options options = {.samples = 1101, .bounces = 2};
+    const rt_image whole = image_in(&of_whole, W, H, ALL);
+    memset(whole.rest, 0, 2 * ALL * sizeof *whole.rest); /* no canaries: all is written */
+    rt_image image = whole;
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &image), RT_OK);
+    for (size_t i = 0; i + 1 < COUNT(cuts); i++) {
+        const int first = cuts[i], count = cuts[i + 1] - first;
+        const size_t size = (size_t)count * sizeof(rt_vec3);
+        rt_image part = image_in(&of_part, W, H, count);
+        part.first = first;
+        part.count = count;
+        for (int samples = 500; samples <= 601; samples += 101) { /* and continued */
+            rt_options some = options;
+            some.samples = samples;
+            assert_int_equal(rt_render(&scene_indirect, &room_camera, &some, &part),
+                             RT_OK);
+        }
+        assert_memory_equal(part.pixels, whole.pixels + first, size);
+        assert_memory_equal(part.half, whole.half + first, size);
+        assert_memory_equal(part.rest, whole.rest + first, size);
+        assert_memory_equal(part.rest + count, whole.rest + ALL + first, size);
+        assert_memory_equal(part.guides, whole.guides + first,
+                            (size_t)count * sizeof(rt_guide));
+        const guarded *const arrays[] = {&of_part.pixels, &of_part.half, &of_part.rest,
+                                         &of_part.guides};
+        for (size_t k = 0; k < COUNT(arrays); k++)
+            check_canaries(arrays[k]);
+    }
+
+    static rt_vec3 rounded[ALL]; /* the rest does change the means */
+    rt_image without = {W, H, rounded, .half = whole.half};
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, &options, &without), RT_OK);
+    assert_memory_not_equal(rounded, whole.pixels, sizeof rounded);
+}
+
+/* A part lacks neighbours of its pixels. Here its memory would do for the whole. */
+static void test_parts_are_not_denoised(void **state)
+{
+    (void)state;
+    enum { W = 9, H = 7, ALL = W * H };
+    static rt_vec3 pixels[ALL], half[ALL], clean[ALL], before[ALL];
+    static rt_guide guides[ALL];
+    const int places[][2] = {{0, 20}, {20, 43}, {62, 1}, {0, ALL}};
+    rt_image image = {W, H, pixels, .half = half, .guides = guides};
+    assert_int_equal(rt_render(&scene_indirect, &room_camera, NULL, &image), RT_OK);
+    memset(before, 0xa5, sizeof before);
+    memcpy(clean, before, sizeof clean);
+    rt_image result = {.width = W, .height = H, .pixels = clean};
+    for (size_t i = 0; i < COUNT(places); i++) {
+        rt_image part = image, part_result = result;
+        part.first = part_result.first = places[i][0];
+        part.count = part_result.count = places[i][1];
+        assert_int_equal(rt_denoise(&part, 0, &result), RT_BAD_SIZE);
+        assert_int_equal(rt_denoise(&image, 0, &part_result), RT_BAD_SIZE);
+        assert_int_equal(rt_denoise(&part, 0, &part_result), RT_BAD_SIZE);
+        assert_true(isinf(rt_denoised_error(&part, 0)));
+        assert_memory_equal(clean, before, sizeof clean);
+        assert_int_equal(result.samples, 0);
+        assert_int_equal(part_result.samples, 0);
+    }
+    assert_int_equal(rt_denoise(&image, 0, &result), RT_OK); /* the whole is */
+    assert_true(rt_denoised_error(&image, 0) <= FLT_MAX);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -654,6 +765,8 @@ int main(void)
         cmocka_unit_test(test_thread_count),
         cmocka_unit_test(test_parts),
         cmocka_unit_test(test_bad_parts),
+        cmocka_unit_test(test_parts_with_a_rest),
+        cmocka_unit_test(test_parts_are_not_denoised),
     };
     return cmocka_run_group_tests_name("8 pictures", tests, NULL, NULL);
 }
