@@ -57,6 +57,95 @@ static void test_a_pixel_a_part_and_a_png(void **state)
     assert_int_equal(run("cmp tiny.png tiny-whole.png"), 0);
 }
 
+/* What a part's file says: where in the picture it is, and how many rays it took. */
+typedef struct place {
+    long long first, count, rays;
+} place;
+
+static place read_place(const char *path)
+{
+    static unsigned char bytes[BYTES];
+    place p = {0};
+    const size_t size = read_file(path, bytes, sizeof bytes - 1);
+    bytes[size] = '\0';
+    const char *line = strstr((char *)bytes, "\nfirst ");
+    if (!line || sscanf(line, "\nfirst %lld\ncount %lld\nrays %lld\n", &p.first, &p.count,
+                        &p.rays) != 3)
+        fail_msg("%s does not say where it is", path);
+    return p;
+}
+
+/* Parts that do not divide the pixels: each begins where the one before ends, the last
+ * ends at the last pixel. Their sizes differ by one pixel at most. The files tell; a join
+ * would not notice pixels that two parts have. */
+static void test_parts_neither_overlap_nor_leave_gaps(void **state)
+{
+    (void)state;
+    const struct {
+        int width, height, parts;
+    } cases[] = {{40, 30, 7}, {41, 31, 7}, {41, 31, 2}, {7, 3, 20}, {5, 1, 3}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        const int all = cases[i].width * cases[i].height, n = cases[i].parts;
+        long long end = 0;
+        char line[200], path[100];
+        assert_int_equal(run("rm -rf *"), 0);
+        snprintf(line, sizeof line,
+                 "demo05 %d %d --samples 1 --quiet --out c.pfm --part all/%d",
+                 cases[i].width, cases[i].height, n);
+        expect(0, "", line);
+        for (int k = 1; k <= n; k++) {
+            snprintf(path, sizeof path, "c-part-%d-of-%d.part", k, n);
+            const place p = read_place(path);
+            if (p.first != end || p.count < all / n || p.count > all / n + 1)
+                fail_msg("%s: first %lld, count %lld, after %lld pixels of %d", path,
+                         p.first, p.count, end, all);
+            end += p.count;
+        }
+        assert_int_equal(end, all);
+    }
+}
+
+/* Pixels times parts is more than an int holds. */
+static void test_thousands_of_parts_of_a_large_picture(void **state)
+{
+    (void)state;
+    const char *arguments = "demo05 640 480 --samples 1 --quiet --out l.pfm";
+    char line[200];
+    assert_int_equal(run("rm -rf *"), 0);
+    for (int k = 7000; k <= 7001; k++) {
+        snprintf(line, sizeof line, "%s --part %d/7001", arguments, k);
+        expect(0, "", line);
+    }
+    const place p = read_place("l-part-7000-of-7001.part");
+    const place last = read_place("l-part-7001-of-7001.part");
+    assert_int_equal(p.first, 307112); /* 307200 * 6999 / 7001 = 307112.2 */
+    assert_int_equal(p.first + p.count, last.first);
+    assert_int_equal(last.first + last.count, 640 * 480);
+}
+
+/* One part has as many rays as seven, in their files and in what the join says. */
+static void test_the_rays_of_all_parts_are_added(void **state)
+{
+    (void)state;
+    const int parts[] = {1, 7};
+    long long sums[COUNT(parts)] = {0};
+    assert_int_equal(run("rm -rf *"), 0);
+    for (size_t i = 0; i < COUNT(parts); i++) {
+        char line[200], path[100], words[100];
+        const char *arguments = "demo08 41 31 --samples 100 --out r.pfm";
+        render_parts(arguments, parts[i]);
+        for (int k = 1; k <= parts[i]; k++) {
+            snprintf(path, sizeof path, "r-part-%d-of-%d.part", k, parts[i]);
+            sums[i] += read_place(path).rays;
+        }
+        snprintf(words, sizeof words, ", %.1f million rays", (double)sums[i] * 1e-6);
+        snprintf(line, sizeof line, "%s --join %d", arguments, parts[i]);
+        expect(0, words, line);
+    }
+    assert_true(sums[0] > 41 * 31 * 100 * 2); /* of the camera, and to the light */
+    assert_int_equal(sums[0], sums[1]);
+}
+
 static int count_of(const char *word)
 {
     int count = 0;
@@ -199,7 +288,8 @@ static void test_damaged_parts_are_not_joined_but_rendered_again(void **state)
         LONGER,
         FLIPPED,
         RAYS,
-        NAN_IN_IT,
+        NAN_FIRST,
+        NAN_LAST,
         INF_IN_IT,
         ALL
     };
@@ -234,9 +324,14 @@ static void test_damaged_parts_are_not_joined_but_rendered_again(void **state)
             break;
         case FLIPPED: floats[500] ^= 1; break;
         case RAYS: *rays = (unsigned char)(*rays == '1' ? '2' : '1'); break;
-        case NAN_IN_IT:
+        case NAN_FIRST:
+        case NAN_LAST:
         case INF_IN_IT:
-            memcpy(floats + 24, kind == INF_IN_IT ? "\0\0\x80\xff" : "\0\0\xc0\x7f", 4);
+            if (kind == NAN_LAST)
+                floats = bytes + size - 8 - 4; /* before the sum */
+            else if (kind == INF_IN_IT)
+                floats += 24;
+            memcpy(floats, kind == INF_IN_IT ? "\0\0\x80\xff" : "\0\0\xc0\x7f", 4);
             sum_anew(bytes, size);
             why = "it has pixels that are NaN or infinite";
             break;
@@ -370,20 +465,20 @@ static void test_ctrl_c_leaves_the_parts_that_are_done(void **state)
 {
     (void)state;
     const char *all =
-        "demo08 160 120 --samples 2000 --threads 1 --out d.pfm --part all/30";
+        "demo08 160 120 --samples 700 --threads 1 --out d.pfm --part all/10";
     char line[600];
     snprintf(line, sizeof line,
              "\"$DEMOS\"/%s >log.txt 2>&1 & demo=$!; for i in $(seq 400); do "
-             "[ -e d-part-2-of-30.part ] && break; sleep 0.02; done; "
+             "[ -e d-part-2-of-10.part ] && break; sleep 0.02; done; "
              "kill -INT $demo; wait $demo; status=$?; cat log.txt; exit $status",
              all);
     assert_int_equal(run(line), 130);
-    assert_non_null(strstr(said, " of 30 is not written"));
+    assert_non_null(strstr(said, " of 10 is not written"));
     const int done = count_of("wrote ");
-    assert_in_range(done, 2, 29);
-    expect(0, "30 of 30 are there", all);
+    assert_in_range(done, 2, 9);
+    expect(0, "10 of 10 are there", all);
     assert_int_equal(count_of("is there already"), done);
-    assert_int_equal(count_of("wrote "), 30 - done);
+    assert_int_equal(count_of("wrote "), 10 - done);
 }
 
 /* Three parts came in the last six seconds, before this one, and another long ago: for the four
@@ -422,6 +517,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parts_make_the_whole_picture),
         cmocka_unit_test(test_a_pixel_a_part_and_a_png),
+        cmocka_unit_test(test_parts_neither_overlap_nor_leave_gaps),
+        cmocka_unit_test(test_thousands_of_parts_of_a_large_picture),
+        cmocka_unit_test(test_the_rays_of_all_parts_are_added),
         cmocka_unit_test(test_sixty_parts_killed_and_resumed),
         cmocka_unit_test(test_other_parts_are_not_joined),
         cmocka_unit_test(test_another_scene_is_another_picture),
