@@ -1,5 +1,4 @@
 """The smallest complete program of rt.h, in Python: writes the same picture.ppm."""
-import ctypes as C
 import rt
 
 scene = rt.scene(
@@ -9,6 +8,6 @@ scene = rt.scene(
 image, pixels = rt.image(320, 240)
 rt.render(scene, rt.Camera(), image, bounces=5)
 
-encode = rt.function("rt_encode", C.c_ubyte, C.c_float, C.c_double)
+encode = rt.function("rt_encode")
 with open("picture.ppm", "wb") as file:
     file.write(b"P6 320 240 255\n" + bytes(encode(v, 2.2) for v in pixels.flat))
