@@ -14,21 +14,29 @@ static const rt_scene scene = {
     .spheres = spheres, .sphere_count = 3, .lights = lights, .light_count = 1};
 static rt_vec3 pixels[WIDTH * HEIGHT];
 
+/* Once around the balls: a turn is 2 pi. */
+static rt_camera camera_at(float turn)
+{
+    return (rt_camera){.position = {6 * sinf(turn), 1, 6 * cosf(turn)},
+                       .direction = {-sinf(turn), -0.15f, -cosf(turn)},
+                       .up = {0, 1, 0},
+                       .fov_y = 45};
+}
+
 int main(int argc, char **argv)
 {
-    const float turn = 6.2831853f * (float)atoi(argv[1]) / (float)atoi(argv[argc - 1]);
-    const rt_camera camera = {.position = {6 * sinf(turn), 1, 6 * cosf(turn)},
-                              .direction = {-sinf(turn), -0.15f, -cosf(turn)},
-                              .up = {0, 1, 0},
-                              .fov_y = 45};
+    const int k = argc == 3 ? atoi(argv[1]) : 0, n = argc == 3 ? atoi(argv[2]) : 0;
+    if (k < 1 || k > n)
+        return 2;
+    const rt_camera camera = camera_at(6.2831853f * (float)k / (float)n);
     rt_image image = {.width = WIDTH, .height = HEIGHT, .pixels = pixels};
     char name[50], unfinished[80];
-    snprintf(name, sizeof name, "frame-%d.ppm", atoi(argv[1]));
+    snprintf(name, sizeof name, "frame-%d.ppm", k);
     snprintf(unfinished, sizeof unfinished, "%s.unfinished", name);
     if (fopen(name, "rb"))
         return 0;
-    const rt_status status =
-        rt_render(&scene, &camera, &(rt_options){.bounces = 5}, &image);
+    const rt_status status = rt_render(
+        &scene, &camera, &(rt_options){.bounces = 5, .seed = (uint32_t)k}, &image);
     FILE *file = status == RT_OK ? fopen(unfinished, "wb") : NULL;
     if (!file || fprintf(file, "P6 %d %d 255\n", WIDTH, HEIGHT) < 0)
         return 1;

@@ -1,5 +1,5 @@
-/* One part of a picture, for any scheduler: "job 3 60" writes the third of 60 parts to part-3.raw.
- * If that is there, there is nothing to do. */
+/* One part of a picture, for any scheduler: "job 3 60" writes the third of 60 parts to
+ * part-3-of-60.raw. If that is there, there is nothing to do. */
 #define RT_IMPLEMENTATION
 #include "rt.h"
 
@@ -14,9 +14,12 @@ static const rt_scene scene = {
 
 int main(int argc, char **argv)
 {
-    const long long k = atoi(argv[1]), n = atoi(argv[argc - 1]), all = 640 * 480;
-    char name[50], unfinished[80];
-    snprintf(name, sizeof name, "part-%lld.raw", k);
+    const long long all = 640 * 480;
+    const long long k = argc == 3 ? atoi(argv[1]) : 0, n = argc == 3 ? atoi(argv[2]) : 0;
+    if (k < 1 || k > n || n > all)
+        return 2;
+    char name[80], unfinished[100];
+    snprintf(name, sizeof name, "part-%lld-of-%lld.raw", k, n);
     snprintf(unfinished, sizeof unfinished, "%s.unfinished", name);
     if (fopen(name, "rb"))
         return 0; /* somebody has done it */

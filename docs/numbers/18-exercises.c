@@ -27,5 +27,5 @@ int main(void)
     printf("cut:");
     for (int k = 1; k <= 7; k++)
         printf(" %d%s", 12 * k / 7 - 12 * (k - 1) / 7, k < 7 ? "," : "\n");
-    printf("rays of 60: %llu\nrays of 1: %llu\n", rays_of(60), rays_of(1));
+    printf("parts: %llu\nrays: %llu\n", rays_of(60), rays_of(1));
 }

@@ -7,7 +7,8 @@ options="640 480 --out room.png"
 seq 60 >list
 array="xargs -P 2 -I@ demo08 $options --threads 1 --part @/60"
 echo '```'
-echo "\$ seq 60 | $array      # and then kill -9"
+echo "\$ seq 60 | $array"
+echo "# in another terminal: pkill -KILL 'xargs|demo08'"
 $array <list >log 2>&1 &
 while [ ! -e room-part-20-of-60.part ]; do sleep 0.1; done
 kill -KILL $! $(ps -A -o pid=,ppid= | awk -v x=$! '$2 == x { print $1 }') 2>/dev/null
