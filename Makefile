@@ -88,7 +88,7 @@ $(BUILD)/tests/machines: tests/machines.c demos/demo18_many_machines.c $(BUILD)/
 	@mkdir -p $(BUILD)/tests
 	$(MPICC) $(FLAGS) -DHAVE_MPI $(OPENMP) -o $@ $< $(BUILD)/program.a $(LIBS) -lm
 
-cluster: $(BUILD)/demo18 ## chapter 18 by MPI, two processes; or MPIRUN="mpirun -np 4"
+cluster: $(BUILD)/demo18 ## chapter 18 by MPI, two processes; or MPIRUN="mpirun --oversubscribe -np 4"
 	@command -v mpirun >/dev/null || { echo "make: mpirun is missing: run 'make deps-mpi'" >&2; exit 1; }
 	[ "$$(id -u)" != 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; \
 	    $(MPIRUN) $(BUILD)/demo18 --no-window $(ARGS)

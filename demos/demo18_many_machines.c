@@ -32,15 +32,13 @@ static rt_status render_together(const rt_options *options, rt_image *image)
     const int all = image->width * image->height, parts = (all - 1) / PART + 1;
     int status = RT_OK, k, step = 1; /* parts at a time */
     while (status == RT_OK && (k = take(step)) < parts) {
-        rt_options mine = *options;
         rt_image part = *image; /* its size, and its rays so far */
         const double start = demo_seconds();
         part.first = k * PART;
         part.count = k + step < parts ? step * PART : all - part.first;
         part.pixels += part.first;
         whole w = {options, part.first, part.count, all};
-        mine.progress = of_the_whole;
-        mine.user = &w;
+        const rt_options mine = attentive(&w);
         status = rt_render(&scene_indirect, &room_camera, &mine, &part);
         image->rays = part.rays;
         if (demo_seconds() - start < 0.1)
@@ -55,24 +53,18 @@ static rt_status render_together(const rt_options *options, rt_image *image)
     image->samples = status == RT_OK ? options->samples : 0;
     return (rt_status)status;
 }
-
-/* The next part for --part all/N. */
-static int next_part(bool first)
-{
-    if (first && machine == 0)
-        tell((job){.order = THE_PARTS});
-    return take(1) + 1;
-}
 #endif
 
 static rt_status render(const rt_options *options, rt_image *image)
 {
 #ifdef HAVE_MPI
     if (others_can_help(options, image)) {
-        tell(
-            (job){A_PICTURE, image->width, image->height, image->rest != NULL, *options});
+        tell_of_picture(options, image);
         return render_together(options, image);
     }
+    whole w = {options, 0, 1, 1};
+    const rt_options mine = attentive(&w);
+    options = &mine;
 #endif
     return rt_render(&scene_indirect, &room_camera, options, image);
 }
@@ -82,9 +74,7 @@ int main(int argc, char **argv)
     const demo d = {.name = "demo18",
                     .title = "18. Many machines",
                     .render = render,
-#ifdef HAVE_MPI
-                    .next_part = next_part,
-#endif
+                    .next_part = next_number,
                     .live = &live_room,
                     .stage = 7,
                     .encode = demo_gamma,

@@ -43,6 +43,14 @@ static bool of_the_whole(void *user, float part)
            w->options->progress(w->options->user, done / (float)w->all);
 }
 
+static rt_options attentive(whole *w)
+{
+    rt_options options = *w->options;
+    options.progress = of_the_whole;
+    options.user = w;
+    return options;
+}
+
 static int take(int step);
 
 /* On machine 0, which then does it, too: the count begins at 0. */
@@ -52,6 +60,20 @@ static void tell(job j)
     MPI_Accumulate(&zero, 1, MPI_INT, 0, 0, 1, MPI_INT, MPI_REPLACE, counter);
     MPI_Win_flush(0, counter);
     MPI_Bcast(&j, sizeof j, MPI_BYTE, 0, MPI_COMM_WORLD);
+}
+
+static void tell_of_picture(const rt_options *options, const rt_image *image)
+{
+    const bool rest = image->rest != NULL;
+    tell((job){A_PICTURE, image->width, image->height, rest, *options});
+}
+
+/* For --part all/N: the next one. */
+static int next_number(bool first)
+{
+    if (first && machine == 0)
+        tell((job){.order = THE_PARTS});
+    return take(1) + 1;
 }
 
 /* They can help with a whole new picture. */
@@ -147,6 +169,8 @@ static int run_on_all(int argc, char **argv, const demo *d,
     MPI_Finalize();
     return result;
 }
+#else
+#define next_number NULL
 #endif
 
 #endif

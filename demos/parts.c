@@ -269,7 +269,7 @@ static parts_state read_floats(const unsigned char *file, size_t size, size_t us
         get_floats(arrays[i], file + used);
         used += 4 * arrays[i].count;
     }
-    if (!is_finite(arrays[0])) {
+    if (!is_finite(arrays[0]) || !is_finite(arrays[1])) {
         text_add(why, "it has pixels that are NaN or infinite");
         return PART_DAMAGED;
     }

@@ -21,7 +21,12 @@ done
 
 # Two machines with a network between them: the counter's machine must answer while it renders.
 tests/lab mpirun --hostfile lab "$PWD/build/tests/machines" >"$log" 2>&1
-if grep -q '^note:' "$log"; then cat "$log"; else grep -q 'machine 1 renders' "$log"; fi
+if grep -q '^note:' "$log"; then cat "$log"; else
+    grep -q 'machine 1 renders' "$log"
+    tests/lab mpirun --hostfile lab "$PWD/build/demo18" 161 121 --samples 3000 --threads 1 --part all/30 >"$log" 2>&1
+    mine=$(grep -c 'wrote demo18-part' "$log")
+    [ "$mine" -ge 3 ] && [ "$mine" -le 27 ] || fail "of 30 parts machine 0 rendered $mine"
+fi
 
 # Ctrl-C, which mpirun takes as it takes this signal: a picture of what there is.
 mpirun -np 2 build/demo18 --samples 100000 --threads 1 --no-window --out "$folder/some.png" >"$log" 2>&1 &

@@ -28,7 +28,8 @@ int main(void)
     const rt_options options = {.samples = 16, .bounces = 5, .threads = 1};
     if (render_parts(&options, &s) != RT_OK)
         return 1;
-    puts("| 8 machines | the first is ready after | the last after | times as fast as one |\n"
+    puts("| 8 machines | the first is ready after | the last after | times as fast as "
+         "one |\n"
          "|---|---|---|---|");
     print_row("a fixed share for each", s.fixed);
     print_row("the next part for whoever is ready", s.counted);

@@ -6,7 +6,7 @@
 
 static const rt_vec3 colours[MACHINES] = {
     {1.0f, 0.3f, 0.3f}, {0.3f, 1.0f, 0.3f}, {0.4f, 0.4f, 1.0f}, {1.0f, 1.0f, 0.3f},
-    {1.0f, 0.3f, 1.0f}, {0.3f, 1.0f, 1.0f}, {1.0f, 0.6f, 0.3f}, {1.0f, 1.0f, 1.0f}};
+    {1.0f, 0.3f, 1.0f}, {0.3f, 1.0f, 1.0f}, {1.0f, 0.6f, 0.3f}, {0.6f, 0.6f, 0.6f}};
 
 static rt_status render(const rt_options *options, rt_image *image)
 {
