@@ -16,12 +16,12 @@
 /* What machine 0 tells the others to do. */
 typedef enum order { END, A_PICTURE, THE_PARTS } order;
 
-typedef struct job {
+typedef struct task {
     order order;
     int width, height; /* of a picture */
     bool rest;         /* it has image.rest */
     rt_options options;
-} job;
+} task;
 
 static int machine, machines = 1; /* which one is this, and of how many? */
 static MPI_Win counter;           /* the memory on machine 0 that all count in */
@@ -53,26 +53,28 @@ static rt_options attentive(whole *w)
 
 static int take(int step);
 
-/* On machine 0, which then does it, too: the count begins at 0. */
-static void tell(job j)
+/* On machine 0, which then does it, too: the count begins at 0. (At the end others may still be at
+ * work on their last part: for them it stays where it is.) */
+static void tell(task t)
 {
     const int zero = 0;
-    MPI_Accumulate(&zero, 1, MPI_INT, 0, 0, 1, MPI_INT, MPI_REPLACE, counter);
+    if (t.order != END)
+        MPI_Accumulate(&zero, 1, MPI_INT, 0, 0, 1, MPI_INT, MPI_REPLACE, counter);
     MPI_Win_flush(0, counter);
-    MPI_Bcast(&j, sizeof j, MPI_BYTE, 0, MPI_COMM_WORLD);
+    MPI_Bcast(&t, sizeof t, MPI_BYTE, 0, MPI_COMM_WORLD);
 }
 
 static void tell_of_picture(const rt_options *options, const rt_image *image)
 {
     const bool rest = image->rest != NULL;
-    tell((job){A_PICTURE, image->width, image->height, rest, *options});
+    tell((task){A_PICTURE, image->width, image->height, rest, *options});
 }
 
 /* For --part all/N: the next one. */
 static int next_number(bool first)
 {
     if (first && machine == 0)
-        tell((job){.order = THE_PARTS});
+        tell((task){.order = THE_PARTS});
     return take(1) + 1;
 }
 
@@ -99,16 +101,16 @@ static bool not_stopped(void *user, float part)
     return !stopped;
 }
 
-static void help_with_picture(rt_status (*render)(const rt_options *, rt_image *), job j)
+static void help_with_picture(rt_status (*render)(const rt_options *, rt_image *), task t)
 {
-    rt_image image = {.width = j.width, .height = j.height};
-    const size_t all = (size_t)j.width * (size_t)j.height;
+    rt_image image = {.width = t.width, .height = t.height};
+    const size_t all = (size_t)t.width * (size_t)t.height;
     image.pixels = calloc(all, sizeof *image.pixels);
-    image.rest = j.rest ? calloc(all, sizeof *image.rest) : NULL;
-    if (!image.pixels || (j.rest && !image.rest))
+    image.rest = t.rest ? calloc(all, sizeof *image.rest) : NULL;
+    if (!image.pixels || (t.rest && !image.rest))
         MPI_Abort(MPI_COMM_WORLD, 1); /* all of them */
-    j.options.progress = not_stopped;
-    render(&j.options, &image);
+    t.options.progress = not_stopped;
+    render(&t.options, &image);
     free(image.pixels);
     free(image.rest);
 }
@@ -132,11 +134,11 @@ static int help(int argc, char **argv, const demo *d,
                 rt_status (*render)(const rt_options *, rt_image *))
 {
     int result = 0;
-    job j;
+    task t;
     platform_on_interrupt(stop);
-    while (MPI_Bcast(&j, sizeof j, MPI_BYTE, 0, MPI_COMM_WORLD), j.order != END) {
-        if (j.order == A_PICTURE)
-            help_with_picture(render, j);
+    while (MPI_Bcast(&t, sizeof t, MPI_BYTE, 0, MPI_COMM_WORLD), t.order != END) {
+        if (t.order == A_PICTURE)
+            help_with_picture(render, t);
         else
             result = help_with_parts(argc, argv, d);
     }
@@ -160,7 +162,7 @@ static int run_on_all(int argc, char **argv, const demo *d,
     if (machine == 0) {
         result = demo_main(argc, argv, d);
         take(1 << 30); /* no parts after a failure */
-        tell((job){.order = END});
+        tell((task){.order = END});
     } else {
         result = help(argc, argv, d, render);
     }
