@@ -11,7 +11,7 @@ BUILD   ?= build
 ARGS    ?=
 
 # MACHINE: compile for the machine that runs make. Packets have 16 rays if it has AVX-512,
-# otherwise 8. In a lab of mixed machines, "make MACHINE=" makes programs that run on all.
+# otherwise 8. In a lab of mixed machines, "make -B demos MACHINE=" makes programs that run on all.
 MACHINE  = $(eval MACHINE := $(shell $(CC) -march=native -E -x c /dev/null >/dev/null 2>&1 && \
     echo -march=native))$(MACHINE)
 

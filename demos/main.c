@@ -114,7 +114,8 @@ static bool keep_going(void *user, float part)
 {
     run *r = user;
     viewer *v = &r->v;
-    if (!v->disturbed) {
+    const bool short_part = r->s.part > 0 && demo_seconds() - r->p.started < 10.0;
+    if (!v->disturbed && !short_part) {
         const bool early = r->s.samples == 0 && part < 0.01f;
         r->p.picture = viewer_picture(v);
         r->done = r->before + r->share * (double)part;
@@ -192,9 +193,11 @@ static bool complete(run *r, rt_status status, double took)
         return failed(r, status);
     if (!r->s.quiet) {
         text_add(&out, "%.2f s, ", took);
-        viewer_say_samples(image, rt_image_error(image), &out);
-        text_add(&out, ", %.1f million rays per second",
-                 (double)image->rays / took * 1e-6);
+        if (image->samples > 0) { /* else it was interrupted before */
+            viewer_say_samples(image, rt_image_error(image), &out);
+            text_add(&out, ", ");
+        }
+        text_add(&out, "%.1f million rays per second", (double)image->rays / took * 1e-6);
     }
     if (status == RT_CANCELLED)
         snprintf(end, sizeof end, " (interrupted at %.0f %%)", 100.0 * r->done);

@@ -90,11 +90,14 @@ void progress_print(progress *p, double now, double part, int samples)
             bar[i] = i < (int)(30.0 * part) ? '#' : '.';
         bar[30] = '\0';
         fprintf(stderr, "\r\033[K[%s] %3.0f %%%s ", bar, 100.0 * part, left);
-    } else if (part < 1.0 && ((int)(4.0 * part) > p->quarters ||
-                              now > fmax(p->started, p->due) + 60.0)) {
-        p->quarters = (int)(4.0 * part);
+    } else if (part < 1.0) {
+        const int quarters = (int)(4.0 * part);
+        const bool another = quarters > p->quarters;
+        if (!another && now < fmax(p->started, p->due) + 60.0)
+            return;
+        fprintf(stderr, "%d %%%s\n", another ? 25 * quarters : (int)(100.0 * part), left);
+        p->quarters = quarters;
         p->due = now;
-        fprintf(stderr, "%.0f %%%s\n", floor(100.0 * part), left);
     }
 }
 

@@ -241,8 +241,12 @@ static void test_another_scene_is_another_picture(void **state)
     begin_anew();
     expect(0, "", "demo05 20 20 --samples 1 --quiet --no-window --out t.png");
     render_parts("demo15 40 30 --samples 2 --texture t.png --out p.pfm", 1);
-    expect_refusal("p-part-1-of-1.part", "'scene ",
+    expect_refusal("p-part-1-of-1.part", "'given ",
                    "demo15 40 30 --samples 2 --out p.pfm --join 1");
+    expect(0, "", "demo15 40 30 --samples 2 --texture t.png --out p.pfm --join 1");
+    begin_anew();
+    assert_int_equal(run("LC_ALL=C sed -i 's/^scene ./scene x/' " SECOND), 0);
+    expect_refusal(SECOND, "'scene x", SMALL "--join 2");
 }
 
 static void test_missing_and_overlapping_parts(void **state)
