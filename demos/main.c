@@ -25,8 +25,7 @@ typedef struct run {
     uint64_t given;       /* a sum of what was read from files: the texture, the mesh */
     int first;            /* the first part that was rendered; 0: none yet */
     double done;          /* how much of the work, 0 to 1 */
-    double before,
-        share; /* how much was done before what is rendered now, and its share */
+    double before, share; /* of it: what was done before this part, and this part */
 } run;
 
 static volatile sig_atomic_t interrupted; /* by Ctrl-C or SIGTERM; a second one kills */

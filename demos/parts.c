@@ -118,13 +118,9 @@ static void get_floats(floats f, const unsigned char *from)
 }
 
 /* FNV-1a. It finds accidents, not forgeries. */
-static uint64_t sum_of(const void *bytes, size_t size)
-{
-    return parts_add(UINT64_C(0xcbf29ce484222325), bytes, size);
-}
-
 uint64_t parts_add(uint64_t sum, const void *bytes, size_t size)
 {
+    sum = sum ? sum : UINT64_C(0xcbf29ce484222325);
     for (size_t i = 0; i < size; i++)
         sum = (sum ^ ((const unsigned char *)bytes)[i]) * UINT64_C(0x100000001b3);
     return sum;
@@ -138,7 +134,7 @@ uint64_t parts_sum(const rt_image *image)
     uint64_t sum = 0;
     if (bytes) {
         put_floats(arrays[0], bytes);
-        sum = sum_of(bytes, 4 * arrays[0].count);
+        sum = parts_add(0, bytes, 4 * arrays[0].count);
     }
     free(bytes);
     return sum;
@@ -188,7 +184,7 @@ bool parts_write(const char *who, const char *path, const char *lines,
         put_floats(arrays[i], file + used);
         used += 4 * arrays[i].count;
     }
-    put_bits(sum_of(file, used), SUM, file + used);
+    put_bits(parts_add(0, file, used), SUM, file + used);
     const bool good = files_write(who, path, file, used + SUM);
     free(file);
     return good;
@@ -261,7 +257,7 @@ static parts_state read_floats(const unsigned char *file, size_t size, size_t us
                  (unsigned long long)wanted);
         return PART_DAMAGED;
     }
-    if (sum_of(file, size - SUM) != get_bits(file + size - SUM, SUM)) {
+    if (parts_add(0, file, size - SUM) != get_bits(file + size - SUM, SUM)) {
         text_add(why, "it is damaged: its sum is wrong");
         return PART_DAMAGED;
     }
