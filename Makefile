@@ -78,8 +78,14 @@ demos: $(DEMOS:%=$(BUILD)/%) ## render all to build/, without windows
 $(DEMOS): %: $(BUILD)/%
 	$(BUILD)/$@ $(ARGS)
 
-$(BUILD)/demo18: demos/demo18_many_machines.c $(BUILD)/program.a $(HEADERS)
+$(BUILD)/demo18: demos/demo18_many_machines.c $(BUILD)/program.a $(HEADERS) $(BUILD)/with$(if $(MPICC),,out)-mpi
 	$(or $(MPICC),$(CC)) $(FLAGS) $(MPICC:%=-DHAVE_MPI) $(OPENMP) -o $@ $< $(BUILD)/program.a $(LIBS) -lm
+
+# A mark, so that demo18 is compiled again once there is MPI.
+$(BUILD)/with-mpi $(BUILD)/without-mpi:
+	@mkdir -p $(BUILD)
+	@rm -f $(BUILD)/with-mpi $(BUILD)/without-mpi
+	@touch $@
 
 demo18: $(BUILD)/demo18
 	$(BUILD)/demo18 $(ARGS)
@@ -88,8 +94,9 @@ $(BUILD)/tests/machines: tests/machines.c demos/demo18_many_machines.c $(BUILD)/
 	@mkdir -p $(BUILD)/tests
 	$(MPICC) $(FLAGS) -DHAVE_MPI $(OPENMP) -o $@ $< $(BUILD)/program.a $(LIBS) -lm
 
-cluster: $(BUILD)/demo18 ## chapter 18 by MPI, two processes; or MPIRUN="mpirun --oversubscribe -np 4"
+cluster: ## chapter 18 by MPI, two processes; or MPIRUN="mpirun --oversubscribe -np 4"
 	@command -v mpirun >/dev/null || { echo "make: mpirun is missing: run 'make deps-mpi'" >&2; exit 1; }
+	@$(MAKE) --no-print-directory $(BUILD)/demo18 # by a make that looks for mpicc anew, after deps-mpi
 	[ "$$(id -u)" != 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; \
 	    $(MPIRUN) $(BUILD)/demo18 --no-window $(ARGS)
 
