@@ -1,5 +1,6 @@
 /* Chapter 18: what is around the loop of demo18. Machine 0 runs the demo, as always. The others
- * wait until it tells them of a picture, and then all call the same function. */
+ * wait until it tells them of a picture, and then all call the same function; or of parts as files,
+ * and then all run the demo. */
 #ifndef MACHINES_H
 #define MACHINES_H
 
