@@ -136,8 +136,8 @@ typedef struct demo {
     /* For --denoise: what finishes the picture; NULL: rt_denoise. */
     rt_status (*finish)(const rt_image *image, int threads, rt_image *result);
 
-    /* NULL, or the next part, from 1, for --part all/N; first: no part was asked for yet.
-     * NULL: one after the other. */
+    /* For --part all/N: the number of the next part, from 1; first: nobody has asked
+     * here yet. NULL: one after the other. */
     int (*next_part)(bool first);
 
     /* NULL, or what the demo measures and prints before its picture, unless --quiet. */

@@ -44,6 +44,7 @@ static bool of_the_whole(void *user, float part)
            w->options->progress(w->options->user, done / (float)w->all);
 }
 
+/* The same options, with that progress. */
 static rt_options attentive(whole *w)
 {
     rt_options options = *w->options;
@@ -52,7 +53,7 @@ static rt_options attentive(whole *w)
     return options;
 }
 
-static int take(int step);
+static int take(int step); /* the demo has it */
 
 /* On machine 0, which then does it, too: the count begins at 0. (At the end others may still be at
  * work on their last part: for them it stays where it is.) */

@@ -40,7 +40,7 @@ awk -v whole="$whole" -v parts="$parts" -v two="$two" -v again="$again" -v join=
     printf "| one process | %.2f |\n| 60 parts, one after the other | %.2f |\n", whole, parts
     printf "| 60 parts, two at a time | %.2f |\n| 60 parts that are there already | %.2f |\n| to join them | %.2f |\n", two, again, join
     printf "| MPI, 1 process | %.2f |\n| MPI, 2 processes | %.2f |\n| MPI, 4 processes | %.2f |\n", mpi1, mpi2, mpi4
-    printf "one: %.2f\nall: %.2f\ntwo: %.2f\nsame: %.2f\n", mpione, mpiall, mpi2, mpi1
+    printf "one: %.2f\nall: %.2f\ntwo: %.2f\n", mpione, mpiall, mpi2
     c = (parts - whole) / 59; printf "model: %.2f\nmeasured: %.2f\n", (whole + 60 * c) / 2 + whole / 60, two
     j = (join600 - join60) / 5400; J = join - 60 * j
     printf "part-ms: %.0f\njoin-ms: %.3f\n", 1000 * c, 1000 * j

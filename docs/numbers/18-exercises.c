@@ -1,21 +1,19 @@
 /* Chapter 18: answers of the exercises. */
-#define RT_IMPLEMENTATION
-#include "18-shares.h"
-
-#include <stdio.h>
+#define main job
+#include "../machines/job.c"
+#undef main
 
 /* How many rays the parts of job.c have, all together. */
 static unsigned long long rays_of(int parts)
 {
     static rt_vec3 pixels[640 * 480];
-    const rt_scene black = {
-        .spheres = spheres, .sphere_count = 2, .lights = lights, .light_count = 1};
+    const rt_camera camera = {.fov_y = 60};
     unsigned long long rays = 0;
     for (int k = 1; k <= parts; k++) {
         rt_image part = {640, 480, pixels};
         part.first = (int)(640LL * 480 * (k - 1) / parts);
         part.count = (int)(640LL * 480 * k / parts) - part.first;
-        if (rt_render(&black, &camera, &(rt_options){.bounces = 5}, &part) != RT_OK)
+        if (rt_render(&scene, &camera, &(rt_options){.bounces = 5}, &part) != RT_OK)
             return 0;
         rays += part.rays;
     }

@@ -1,9 +1,6 @@
 /* Chapter 18: how long the first and the last of eight machines are busy, with a fixed share for
  * each, and with a counter. */
-#define RT_IMPLEMENTATION
 #include "18-shares.h"
-
-#include <stdio.h>
 
 static shares s;
 

@@ -1,16 +1,8 @@
-/* Chapter 18: eight machines render the ball of job.c, in 64 parts; a part takes as long as
- * it has rays. */
-#include "../../rt.h"
-
-static const rt_sphere spheres[] = {{{0, 0, -5}, 1, {{0.85f, 0.10f, 0.08f}, false}},
-                                    {{0, -101, -5}, 100, {{0.8f, 0.8f, 0.8f}, false}}};
-static const rt_light lights[] = {{{3, 4, -2}, {150, 150, 150}}};
-static const rt_scene scene = {.spheres = spheres,
-                               .sphere_count = 2,
-                               .lights = lights,
-                               .light_count = 1,
-                               .background = {0.5f, 0.6f, 0.7f}};
-static const rt_camera camera = {.fov_y = 60};
+/* Chapter 18: eight machines render the scene of job.c under a sky, in 64 parts; a part takes as
+ * long as it has rays. */
+#define main job
+#include "../machines/job.c"
+#undef main
 
 enum {
     MACHINES = 8,
@@ -28,12 +20,15 @@ typedef struct shares {
 
 static rt_status render_parts(const rt_options *options, shares *s)
 {
+    const rt_camera camera = {.fov_y = 60};
+    rt_scene outdoors = scene;
+    outdoors.background = (rt_vec3){0.5f, 0.6f, 0.7f};
     uint64_t busy[MACHINES] = {0};
     for (int k = 0; k < PARTS; k++) {
         rt_image part = {COLUMNS, ROWS, s->pixels + k * SIZE};
         part.first = k * SIZE;
         part.count = SIZE;
-        const rt_status status = rt_render(&scene, &camera, options, &part);
+        const rt_status status = rt_render(&outdoors, &camera, options, &part);
         if (status != RT_OK)
             return status;
         s->rays[k] = part.rays;

@@ -1,6 +1,7 @@
 /* Chapter 18: which of eight machines renders which part, in its colour: with a fixed share for
  * each, and with a counter.
  * Options: 640 240 --samples 64 --threads 1 */
+#define RT_STATIC
 #include "../numbers/18-shares.h"
 #include "../../demos/demo.h"
 
