@@ -351,6 +351,27 @@ static void test_damaged_parts_are_not_joined_but_rendered_again(void **state)
     }
 }
 
+/* The means of every second sample are pixels, too. */
+static void test_half_without_a_value_is_not_joined(void **state)
+{
+    (void)state;
+    static unsigned char bytes[BYTES];
+    enum { PIXELS = 40 * 30, VECTOR = 12 };
+    const char *demo = "demo07 40 30 --samples 4 --denoise --quiet --out p.pfm";
+    char line[200];
+    begin_anew();
+    render_parts(demo, 1);
+    const size_t size = read_file("p-part-1-of-1.part", bytes, sizeof bytes);
+    unsigned char *rays = (unsigned char *)strstr((char *)bytes, "rays ");
+    unsigned char *half =
+        (unsigned char *)strchr((char *)rays, '\n') + 1 + PIXELS * VECTOR;
+    memcpy(half + VECTOR, "\0\0\xc0\x7f", 4);
+    sum_anew(bytes, size);
+    write_bytes("p-part-1-of-1.part", bytes, size);
+    snprintf(line, sizeof line, "%s --join 1", demo);
+    expect_refusal("p-part-1-of-1.part", "NaN or infinite", line);
+}
+
 static void test_what_is_no_part(void **state)
 {
     (void)state;
@@ -529,6 +550,7 @@ int main(void)
         cmocka_unit_test(test_another_scene_is_another_picture),
         cmocka_unit_test(test_missing_and_overlapping_parts),
         cmocka_unit_test(test_damaged_parts_are_not_joined_but_rendered_again),
+        cmocka_unit_test(test_half_without_a_value_is_not_joined),
         cmocka_unit_test(test_what_is_no_part),
         cmocka_unit_test(test_wrong_use),
         cmocka_unit_test(test_a_full_disk_leaves_no_part),
