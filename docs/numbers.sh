@@ -12,6 +12,10 @@ mkdir -p "$out" || exit 1
 export OMP_WAIT_POLICY=passive
 MAKEFLAGS= make -s build/demo07 build/demo08 build/demo09 || exit 1 # *.sh run these
 
+# rt.h is compiled once for all, but for those that put something of their own into it.
+$cc $flags -w -I. -DRT_IMPLEMENTATION -c -o "$out/rt.o" -x c rt.h || exit 1
+linked() { grep -q '^#define rt_' "$1" || echo "-DRT_IMPLEMENTED $out/rt.o"; }
+
 masked() { sed -e 's/[0-9][0-9.]*/N/g' -e 's/  */ /g' "$1"; }
 
 for file in docs/numbers/*.c docs/numbers/*.sh; do
@@ -19,7 +23,7 @@ for file in docs/numbers/*.c docs/numbers/*.sh; do
     record=docs/numbers/$name.txt
     if [ "$1" != --times ] && grep -q 'Slow: ' "$file"; then cp "$record" "$out"; continue; fi
     case $file in
-    *.c) $cc $flags -w -I. -o "$out/$name" "$file" -lm && "$out/$name" ;;
+    *.c) $cc $flags -w -I. -o "$out/$name" "$file" $(linked "$file") -lm && "$out/$name" ;;
     *) sh "$file" ;;
     esac >"$out/$name.txt" 2>"$out/errors" && [ -s "$out/$name.txt" ] ||
         { cat "$out/errors" >&2; echo "$file failed" >&2; exit 1; }
