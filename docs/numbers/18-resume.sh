@@ -21,7 +21,7 @@ $array <list 2>/dev/null >log
 tail -n 1 log
 echo "\$ demo08 $options --join 60"
 demo08 $options --join 60
-echo "\$ demo08 $options --no-window --quiet --out whole.png; cmp room.png whole.png && echo the same"
+echo "\$ demo08 640 480 --no-window --quiet --out whole.png; cmp room.png whole.png && echo the same"
 demo08 640 480 --no-window --quiet --out whole.png
 cmp room.png whole.png && echo the same
 echo '```'
