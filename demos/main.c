@@ -509,7 +509,7 @@ static bool refine(run *r)
     const rt_status status = viewer_refine(v, keep_going, r);
     if (status != RT_OK && status != RT_CANCELLED)
         return complete(r, status, 0.0);
-    if (viewer_is_denoised(v) && !v->changed) /* or old pixels get the new words */
+    if (viewer_is_denoised(v) && !v->changed) /* else old pixels get new words */
         window_draw_in_time(r->win, v, 4.0);
     if (!viewer_is_denoised(v) || status == RT_OK)
         v->redraw = true;

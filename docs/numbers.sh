@@ -12,7 +12,7 @@ mkdir -p "$out" || exit 1
 export OMP_WAIT_POLICY=passive
 MAKEFLAGS= make -s build/demo07 build/demo08 build/demo09 || exit 1 # *.sh run these
 
-# rt.h is compiled once for all, but for those that put something of their own into it.
+# rt.h is compiled once for all of them, except for those that replace something in it.
 $cc $flags -w -I. -DRT_IMPLEMENTATION -c -o "$out/rt.o" -x c rt.h || exit 1
 linked() { grep -q '^#define rt_' "$1" || echo "-DRT_IMPLEMENTED $out/rt.o"; }
 

@@ -7,7 +7,7 @@
 #include "scene_file.h"
 #include "test.h"
 
-/* RENDER_ONLY: twice and without a comparison, for the sanitizers, which are slow. */
+/* RENDER_ONLY is for the sanitizers, which are slow: two passes, and no comparison. */
 #ifdef RENDER_ONLY
 enum { PASSES = 2 };
 #else

@@ -136,8 +136,8 @@ function messages(said, name) {
     return list;
 }
 
-// Natively: cc -std=c99 -O1 -ffp-contract=off -Wall, by grade.c. The object is printed: clang writes
-// into a file at thousands of places, and each time this file system copies all of it.
+// Natively: cc -std=c99 -O1 -ffp-contract=off -Wall, by grade.c. Here clang prints the object:
+// in a file it would change thousands of places, and this file system copies the whole file each time.
 function compile(code, name) {
     const size = new TextEncoder().encode(code).length;
     if (size === 0 || size > LARGEST)

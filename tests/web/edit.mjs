@@ -461,7 +461,7 @@ test('the picture by it, beside the right one', async () => {
 test('for everybody: axe-core, light and dark, narrow and wide', async () => {
     if (firefox)
         return console.log('note: not tried in Firefox, which cannot be told: colours');
-    const page = await open();
+    const page = await open(undefined, 360);
     const look = async what => {
         for (const [scheme, width] of [['light', 360], ['dark', 1100]]) {
             await page.setViewport({ width, height: 900 });

@@ -468,7 +468,7 @@ tests['a click tells what --explain tells'] = async () => {
 
 tests['axe-core finds nothing, light and dark, on a phone and a desk'] = async () => {
     for (const demo of ['demo01', 'demo07', 'demo08', 'demo10', 'demo14', 'demo15']) {
-        const page = await open(demo);
+        const page = await open(demo, { width: 360 });
         await done(page);
         await press(page, 'Enter');
         for (const [scheme, width] of [['light', 360], ['dark', 1100]]) {
