@@ -67,6 +67,8 @@ int EXPORT(page_start)(int width, int height)
     if (!bytes || !parts[0] || !parts[1] || main(0, NULL) != 0)
         return 1;
     v.disturbed = true; /* there is no command line */
+    v.changed = true;   /* a draft comes first, */
+    v.shrink = 4;       /* and a small one, as nobody knows yet how fast it is here */
     return 0;
 }
 

@@ -47,11 +47,12 @@ async function bring_to_life(root, name, encoded) {
     let workers = [], alone = false, mine = null, drawn_by = 'chapter';
     let run = 0, stale = true; /* what came from the workers before is void */
     let asked_for = 0, other_asked = 0, other_begun = false; /* samples */
-    let results = [[], []], started = 0, spent = 0, known_error = Infinity;
+    let results = [[], []], painted = [0, 0]; /* so many samples of what is to be seen now */
+    let started = 0, spent = 0, known_error = Infinity;
     let collected = [], finishing = false, finish_again = false, finished_samples = 0, finished_error = -1;
     let number = 0, latest = 0, dirty = false, moved_at = 0, timer = 0; /* drafts */
     let divide = 0, holding = false, thing = 0, gamma_is = 0, visible = false;
-    const report = {first: 0, moves: [], drafts: [], done: 0, workers: 0}; /* for tests and the curious */
+    const report = {first: 0, whole: 0, moves: [], drafts: [], done: 0, workers: 0}; /* for tests and the curious */
 
     ex.page_set_comparison(chapter.compare);
     const {canvas, other, status, spoken, progress, plans, said, where, controls, chart} = build();
@@ -134,6 +135,7 @@ async function bring_to_life(root, name, encoded) {
             stop();
             run++;
             stale = true;
+            painted = [0, 0];
             moved_at ||= performance.now();
             root.classList.add('moving');
             draft();
@@ -172,6 +174,7 @@ async function bring_to_life(root, name, encoded) {
             run++;
             stale = false;
             results = [[], []];
+            painted = [0, 0];
             asked_for = spent = 0;
             other_begun = false;
             finishing = finish_again = false;
@@ -234,11 +237,10 @@ async function bring_to_life(root, name, encoded) {
             return show_finished(m);
         const put = which => m.parts.forEach((part, i) => images[which].data.set(m.pixels[i], 4 * PART * part));
         put(is_noisy() ? 1 : m.other);
-        paint(is_noisy() ? 1 : m.other);
         if (is_noisy() && finished_samples === 0) /* nothing better yet */
             put(0);
         if (m.encoded)
-            return;
+            return paint(is_noisy() ? 1 : m.other);
         results[m.other][m.k] = m;
         show_result(m.other);
     }
@@ -246,13 +248,14 @@ async function bring_to_life(root, name, encoded) {
     function show_draft(m, w) {
         w.busy = false;
         ex.page_draft_took(m.took / 1000); /* if it came too late, too: the next is smaller */
-        if (m.draft > latest && ex.page_next(seconds()) === REST) {
+        if (m.draft > latest && painted[0] === 0) { /* nothing better yet */
             latest = m.draft;
             const small = make('canvas', {width: m.width, height: m.height});
             small.getContext('2d').putImageData(new ImageData(m.pixels, m.width, m.height), 0, 0);
             context.imageSmoothingQuality = 'high';
             context.drawImage(small, 0, 0, W, H);
             root.classList.add('alive');
+            report.first ||= performance.now() - begun;
             report.drafts.push(performance.now());
             if (moved_at)
                 report.moves.push(performance.now() - moved_at);
@@ -274,7 +277,7 @@ async function bring_to_life(root, name, encoded) {
     }
     function show_result(which) {
         const s = sum_up(which), w = performance.now();
-        if (s.samples < 1)
+        if (s.samples < 1) /* it has holes, or parts of what was seen before */
             return;
         if (s.error < Infinity && (which === 0 || compares() === OTHER_NUMBERS))
             chart.error(which, s.samples, s.error);
@@ -282,7 +285,7 @@ async function bring_to_life(root, name, encoded) {
             known_error = s.error;
             spent = w - started;
             ex.page_progress(s.samples, s.rays, spent / 1000);
-            report.first ||= w - begun;
+            report.whole ||= w - begun;
             report.rate = s.rays / spent / 1000;
             report.per_worker = s.rays / s.busy / 1e6;
             if (moved_at)
@@ -298,8 +301,12 @@ async function bring_to_life(root, name, encoded) {
         }
         if (which === 1 || is_noisy())
             root.classList.remove('moving'); /* the other one is of this view, too */
-        if (!calm.matches || s.done || (s.samples & (s.samples - 1)) === 0)
+        if (!calm.matches || s.done || s.samples >= 2 * painted[which]) {
+            painted[which] = s.samples;
             paint(which);
+            if (is_noisy())
+                paint(1);
+        }
         if (s.done && which === 0) {
             if (!report.done) {
                 chart.speed(report.rate);

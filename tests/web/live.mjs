@@ -482,9 +482,32 @@ tests['axe-core finds nothing, light and dark, on a phone and a desk'] = async (
     }
 };
 
+// How often the picture was painted, but for drafts, and how often with holes.
+const watched = () => {
+    const paint = CanvasRenderingContext2D.prototype.putImageData;
+    window.painted = window.holes = 0;
+    CanvasRenderingContext2D.prototype.putImageData = function (image, ...place) {
+        window.painted += this.canvas.isConnected ? 1 : 0;
+        window.holes += image.data.some((byte, i) => i % 4 === 3 && byte < 255) ? 1 : 0;
+        return paint.call(this, image, ...place);
+    };
+};
+
+tests['a draft comes first, and no picture has holes'] = async () => {
+    for (const demo of ['demo07', 'demo10']) {
+        const page = await open(demo, { before: watched, size: [480, 360] });
+        await done(page);
+        const live = await page.evaluate(() => { const { first, whole } = document.querySelector('.live').live; return { first, whole }; });
+        assert.ok(live.first > 0 && live.first < live.whole, `${demo}: ${live.first}, ${live.whole}`);
+        assert.equal(await page.evaluate(() => window.holes), 0);
+    }
+};
+
 tests['with reduced motion it shows few steps'] = async () => {
-    const page = await open('demo07', { features: [{ name: 'prefers-reduced-motion', value: 'reduce' }] });
+    const page = await open('demo07', { before: watched, size: [480, 360], features: [{ name: 'prefers-reduced-motion', value: 'reduce' }] });
     await done(page);
+    const samples = await page.evaluate(() => document.querySelector('.live').live.ex.page_samples());
+    assert.ok(await page.evaluate(() => window.painted) <= 1 + Math.ceil(Math.log2(samples)));
     assert.equal(await hash(page), await nativeHash(page, 'demo07'));
 };
 
@@ -546,8 +569,8 @@ speeds['the first picture in half a second'] = () => tries(8, async () => {
     for (const demo of ['demo01', 'demo07']) {
         const page = await open(demo, { size: [480, 360] });
         await done(page);
-        const first = await page.evaluate(() => document.querySelector('.live').live.first);
-        console.log(`${demo}: first picture after ${Math.round(first)} ms`);
+        const { first, whole } = await page.evaluate(() => document.querySelector('.live').live);
+        console.log(`${demo}: first picture, a draft, after ${Math.round(first)} ms; a sample in each pixel after ${Math.round(whole)} ms`);
         assert.ok(first <= 500);
         await page.close();
     }
