@@ -55,6 +55,16 @@ static rt_options attentive(whole *w)
 
 static int take(int step); /* the demo has it */
 
+/* The task goes from machine 0 to all. A wait of MPI's would keep each of their cores busy. */
+static void share(task *t)
+{
+    MPI_Request request;
+    int shared;
+    MPI_Ibcast(t, sizeof *t, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+    while (MPI_Test(&request, &shared, MPI_STATUS_IGNORE), !shared)
+        platform_sleep(2);
+}
+
 /* On machine 0, which then does it, too: the count begins at 0. (At the end others may still be at
  * work on their last part: for them it stays where it is.) */
 static void tell(task t)
@@ -63,7 +73,7 @@ static void tell(task t)
     if (t.order != END)
         MPI_Accumulate(&zero, 1, MPI_INT, 0, 0, 1, MPI_INT, MPI_REPLACE, counter);
     MPI_Win_flush(0, counter);
-    MPI_Bcast(&t, sizeof t, MPI_BYTE, 0, MPI_COMM_WORLD);
+    share(&t);
 }
 
 static void tell_of_picture(const rt_options *options, const rt_image *image)
@@ -138,7 +148,7 @@ static int help(int argc, char **argv, const demo *d,
     int result = 0;
     task t;
     platform_on_interrupt(stop);
-    while (MPI_Bcast(&t, sizeof t, MPI_BYTE, 0, MPI_COMM_WORLD), t.order != END) {
+    while (share(&t), t.order != END) {
         if (t.order == A_PICTURE)
             help_with_picture(render, t);
         else

@@ -85,6 +85,11 @@ void platform_set_default(const char *name, const char *value)
         _putenv_s(name, value);
 }
 
+void platform_sleep(int milliseconds)
+{
+    Sleep((DWORD)milliseconds);
+}
+
 /* _wfopen of older Windows does not know the x of "wbx". */
 FILE *platform_open(const char *path, const char *mode)
 {
@@ -190,6 +195,7 @@ platform_result platform_apart(bool (*work)(const char *path, FILE *to), const c
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 char **platform_begin(int *argc, char **argv)
@@ -215,6 +221,12 @@ void platform_on_interrupt(void (*stop)(int signal))
 void platform_set_default(const char *name, const char *value)
 {
     setenv(name, value, 0);
+}
+
+void platform_sleep(int milliseconds)
+{
+    const struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000L};
+    nanosleep(&time, NULL);
 }
 
 FILE *platform_open(const char *path, const char *mode)

@@ -17,6 +17,8 @@ void platform_on_interrupt(void (*stop)(int signal));
 
 /* Give a variable of the environment a value, unless it has one. */
 void platform_set_default(const char *name, const char *value);
+/* Leave the core to others, for about so many milliseconds. */
+void platform_sleep(int milliseconds);
 
 /* ---- files: those that fail set errno ------------------------------------------------ */
 

@@ -6,6 +6,7 @@ import doctest
 import hashlib
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -27,23 +28,30 @@ def run(source, *flags):
 
 def zero(kind):
     """The initialiser with a 0 for each field. C wants all of them, see below."""
+    if issubclass(kind, ctypes.Array):
+        return "{0}"
     if not issubclass(kind, ctypes.Structure):
         return "0"
     return "{" + ", ".join(zero(part) for _, part in kind._fields_) + "}"
 
 
 def structs():
-    """Each struct of rt.py has the size of rt.h's, each field its place, size and kind."""
+    """Each struct of rt.h has its class, of the same size; each field its place, size and kind."""
     here, zeros, code = [], [], []
     for name, kind in rt.kinds.items():
         if kind and not issubclass(kind, ctypes.Structure):
             here.append(f"{name} {ctypes.sizeof(kind)} {kind is ctypes.c_float:d}")
             code.append(f'printf("{name} %zu %d\\n", sizeof({name}),'
                         f" _Generic(({name})0, float: 1, default: 0));")
-    for s in vars(rt).values():
-        if not (isinstance(s, type) and issubclass(s, ctypes.Structure)):
+    with open("rt.h", encoding="utf-8") as header:
+        ends = re.findall(r"^} (rt_[a-z]\w*);", header.read(), re.M)
+    assert len(ends) > 25
+    for name in ends:
+        s = rt.kinds.get(name)
+        assert s or name == "rt_bvh_row", f"{name} has no class"  # a union
+        if not s or not issubclass(s, ctypes.Structure):
             continue
-        name = s.__name__
+        assert getattr(rt, name[3:].title().replace("_", "")) is s
         here.append(f"{name} {ctypes.sizeof(s)}")
         code.append(f'printf("{name} %zu\\n", sizeof({name}));')
         zeros.append(f"const {name} no_{name} = {zero(s)};")
@@ -53,11 +61,15 @@ def structs():
             code.append(f'printf("{name}.{field} %zu %zu %d\\n", offsetof({name}, {field}),'
                         f" sizeof no_{name}.{field},"
                         f" _Generic(no_{name}.{field}, float: 1, default: 0));")
+    for name, value in vars(rt).items():
+        if name.startswith("RT_"):
+            here.append(f"{name} {value}")
+            code.append(f'printf("{name} %d\\n", {name});')
     # A field that is missing where C leaves a gap changes no size: hence the zeros.
     there = run('#include "rt.h"\n#include <stddef.h>\n#include <stdio.h>\n' + "\n".join(zeros)
                 + "\nint main(void) {" + "\n".join(code) + "}",
                 "-std=c11", "-Werror=missing-field-initializers").splitlines()
-    assert len(here) > 50
+    assert len(here) > 150
     different = [f"rt.py: {a}, rt.h: {b}" for a, b in zip(here, there) if a != b]
     assert not different and len(here) == len(there), "\n".join(different)
 
@@ -219,6 +231,13 @@ def refused():
         except rt.Error as error:
             assert "NULL" in str(error), error
     assert image.samples == 0
+    ball = ((0, 0, -5), 1, ((0.8, 0.8, 0.8), False))
+    for wrong in {"sphere": [ball]}, {"spheres": [1]}, {"spheres": ball}, {"background": 1}:
+        try:
+            rt.scene(**wrong)
+            assert False, f"a scene of {wrong}"
+        except (AttributeError, TypeError, RuntimeError):
+            pass
 
 
 def new_picture():

@@ -12,10 +12,9 @@ def picture(samples, **options):
     return pixels
 
 
-SOBOL, RANDOM = 0, 1
 exact = picture(2 ** 13, seed=1)
 print("samples    Sobol   random")
 for samples in (1, 4, 16, 64, 256):
     errors = [np.sqrt(np.mean((picture(samples, sampler=s) - exact) ** 2))
-              for s in (SOBOL, RANDOM)]
+              for s in (rt.RT_SOBOL, rt.RT_RANDOM)]
     print("%7d  %.5f  %.5f" % (samples, *errors))

@@ -11,9 +11,9 @@ except ImportError:
 
 me = pathlib.Path(__file__).resolve()
 header, built = me.with_name("rt.h"), me.with_name(f"rt-{platform.node()}.so")
+text = re.sub(r"/\*.*?\*/", "", header.read_text(encoding="utf-8"), flags=re.S)
 functions = {name: (result, arguments) for result, name, arguments in re.findall(
-    r"^(?:static inline|RTDEF) ([^(\n]*)\b(rt_[a-z]\w*)\(([^)]*)\)",
-    header.read_text(encoding="utf-8"), re.M)}
+    r"^(?:static inline|RTDEF) ([^(\n]*)\b(rt_[a-z]\w*)\(([^)]*)\)", text, re.M)}
 changed = max(me.stat().st_mtime, header.stat().st_mtime)
 if not built.exists() or built.stat().st_mtime < changed:
     # Most functions are static inline: what can be seen is a pointer to each.
@@ -29,49 +29,37 @@ if not built.exists() or built.stat().st_mtime < changed:
     os.replace(new, built)
 library = C.CDLL(str(built))
 
-
-def struct(name, **fields):
-    """The struct of this name in rt.h; all its fields, in their order."""
-    members = {"_fields_": list(fields.items()), "__slots__": ()}
-    kinds[name] = type(name, (C.Structure,), members)
-    return kinds[name]
-
-
-Float, Int, Bool, To = C.c_float, C.c_int, C.c_bool, C.POINTER
-kinds = {"void": None, "bool": Bool, "char": C.c_ubyte, "int": Int, "rt_status": Int,
-         "uint32_t": C.c_uint32, "float": Float, "double": C.c_double}
-Progress = C.CFUNCTYPE(Bool, C.c_void_p, Float)
-Vec3 = struct("rt_vec3", x=Float, y=Float, z=Float)
-DVec3 = struct("rt_dvec3", x=C.c_double, y=C.c_double, z=C.c_double)
-Ray = struct("rt_ray", origin=Vec3, direction=Vec3)
-Camera = struct("rt_camera", position=Vec3, direction=Vec3, up=Vec3, fov_y=Float)
-Material = struct("rt_material", albedo=Vec3, mirror=Bool)
-Sphere = struct("rt_sphere", center=Vec3, radius=Float, material=Material)
-Box = struct("rt_box", min=Vec3, max=Vec3, material=Material)
-Light = struct("rt_light", position=Vec3, intensity=Vec3)
-Hit = struct("rt_hit", t=Float, point=Vec3, normal=Vec3, material=To(Material), shape=Int,
-             part=Int, u=Float, v=Float, inside=Bool)
-Rng = struct("rt_rng", key=C.c_uint32, dimension=C.c_uint32, rays=C.c_uint32, sobol=Bool,
-             sample=C.c_uint32, watch=C.c_void_p)
-Scene = struct("rt_scene", spheres=To(Sphere), sphere_count=Int, boxes=To(Box),
-               box_count=Int, lights=To(Light), light_count=Int, background=Vec3,
-               bvh=C.c_void_p, surfaces=C.c_void_p, lamps=C.c_void_p, lamp_count=Int,
-               sky=C.c_void_p, sky_data=C.c_void_p, meshes=C.c_void_p, mesh_count=Int,
-               custom_shapes=C.c_void_p, custom_shape_count=Int)
-Guide = struct("rt_guide", normal=Vec3, point=Vec3, albedo=Vec3, direct=Vec3, half=Vec3)
-Image = struct("rt_image", width=Int, height=Int, pixels=To(Vec3), samples=Int, done=Int,
-               rays=C.c_uint64, half=To(Vec3), rest=To(Vec3), guides=To(Guide),
-               first=Int, count=Int)
-Lens = struct("rt_lens", radius=Float, focus=Float)
-Options = struct("rt_options", samples=Int, bounces=Int, threads=Int, seed=C.c_uint32,
-                 progress=Progress, user=C.c_void_p, sampler=Int, error=Float,
-                 seconds=Float, lanes=Int, lens=Lens)
+kinds = {"void": None, "bool": C.c_bool, "char": C.c_ubyte, "int": C.c_int, "float": C.c_float,
+         "uint32_t": C.c_uint32, "uint64_t": C.c_uint64, "double": C.c_double}
+RT_ALL_BOUNCES = 2 ** 31 - 1
+for name, values in re.findall(r"typedef enum (rt_[a-z]\w*) {(.*?)}", text, re.S):
+    kinds[name] = C.c_int
+    globals().update((value, i) for i, value in enumerate(re.findall(r"\w+", values)))
+structs = dict(re.findall(r"typedef struct (rt_[a-z]\w*) {(.*?)}", text, re.S))
 
 
 def kind(text):
-    """The type of what rt.h calls, for example, "const rt_ray *ray"."""
+    """The type that rt.h calls, for example, "const rt_ray *ray"."""
     name, star = re.match(r"\s*(?:const |struct |unsigned )*(\w+) ?(\*?)", text).groups()
-    return To(kinds.get(name)) if star else kinds[name]
+    return C.POINTER(kinds.get(name)) if star else kinds[name]
+
+
+def fields(text):
+    """Of a struct, each with its name and type: "float u, v" are two."""
+    for field in re.findall(r"[^;\s][^;]*", text):
+        if "(" in field:  # a pointer to a function
+            result, name, arguments = re.match(r"(.*?)\(\*(\w+)\)\((.*)\)", field).groups()
+            yield name, C.CFUNCTYPE(kind(result), *map(kind, arguments.split(",")))
+            continue
+        for name, count in re.findall(r"(\w+)(?:\[(\d+)\])?(?=,|$)", field):
+            yield name, kind(field) * int(count) if count else kind(field)
+
+
+for name in structs:  # rt_custom_shape becomes CustomShape
+    kinds[name] = type(name, (C.Structure,), {"__slots__": ()})
+    globals()[name[3:].title().replace("_", "")] = kinds[name]
+for name in structs:  # now that they may contain each other
+    kinds[name]._fields_ = list(fields(structs[name]))
 
 
 def function(name):
@@ -88,11 +76,18 @@ def function(name):
     return checked
 
 
-def scene(spheres=(), boxes=(), lights=(), **more):
-    s = (Sphere * len(spheres))(*spheres)
-    b = (Box * len(boxes))(*boxes)
-    l = (Light * len(lights))(*lights)
-    return Scene(s, len(s), b, len(b), l, len(l), **more)
+def scene(**given):
+    """A scene. Lists become arrays, and the scene gets their lengths, too."""
+    made, kinds = Scene(), dict(Scene._fields_)
+    for name, value in given.items():
+        item = getattr(kinds.get(name), "_type_", None)
+        if item and isinstance(value, (list, tuple)):
+            following = list(kinds)[list(kinds).index(name) + 1]
+            if following.endswith("_count"):
+                setattr(made, following, len(value))
+            value = (item * len(value))(*value)
+        setattr(made, name, value)
+    return made
 
 
 def image(width, height):
@@ -114,7 +109,7 @@ def render(scene, camera, image, **options):
         part = now
         return going
 
-    options = Options(progress=Progress(progress), **options)
+    options = Options(progress=dict(Options._fields_)["progress"](progress), **options)
     bar = tqdm(total=1, leave=False, bar_format="{l_bar}{bar}| {remaining} left")
     with ThreadPoolExecutor(1) as other:
         try:
