@@ -1,24 +1,30 @@
 /* Chapter 9: the estimate from two halves, held against the true error. */
 #include "9-error.h"
 
-static void row(const char *what, rt_sampler sampler, bool halves, bool estimated)
+enum { COLUMNS = 5 }; /* 4 samples, 16, ... 1024 */
+
+static void row(const char *what, const double values[COLUMNS])
 {
     printf("| %s |", what);
-    for (int n = 4; n <= 1024; n *= 4) {
-        double estimate;
-        const double error = error_of(n, sampler, halves, &estimate);
-        printf(" %.1f %% |", 100 * (estimated ? estimate : error));
-    }
+    for (int i = 0; i < COLUMNS; i++)
+        printf(" %.1f %% |", 100 * values[i]);
     printf("\n");
 }
 
 int main(void)
 {
+    double random[2][COLUMNS], halves[2][COLUMNS],
+        one[COLUMNS]; /* true error, estimate */
     render(truth, NULL, 8192, 1000, RT_SOBOL);
+    for (int i = 0, n = 4; i < COLUMNS; i++, n *= 4) {
+        random[0][i] = error_of(n, RT_RANDOM, true, &random[1][i]);
+        halves[0][i] = error_of(n, RT_SOBOL, true, &halves[1][i]);
+        one[i] = error_of(n, RT_SOBOL, false, NULL);
+    }
     printf("| samples | 4 | 16 | 64 | 256 | 1024 |\n|---|---|---|---|---|---|\n");
-    row("random: true error", RT_RANDOM, true, false);
-    row("random: estimate", RT_RANDOM, true, true);
-    row("Sobol's, one sequence: true error", RT_SOBOL, false, false);
-    row("Sobol's, two halves: true error", RT_SOBOL, true, false);
-    row("Sobol's, two halves: estimate", RT_SOBOL, true, true);
+    row("random: true error", random[0]);
+    row("random: estimate", random[1]);
+    row("Sobol's, one sequence: true error", one);
+    row("Sobol's, two halves: true error", halves[0]);
+    row("Sobol's, two halves: estimate", halves[1]);
 }

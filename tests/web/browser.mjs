@@ -76,6 +76,9 @@ export async function findings(page) {
     return violations.map(v => `${v.id}: ${v.nodes.map(node => node.target).join(' ')}`);
 }
 
+// Pages that stay open from test to test.
+export const kept = [];
+
 // Run tests, an object of names and functions; one line for each that fails.
 export async function run(tests, wanted) {
     let good = 0, bad = 0;
@@ -95,7 +98,7 @@ export async function run(tests, wanted) {
             bad++;
             console.log(`${name}: ${error.stack}${complaints.map(words => `\n    the page complains: ${words}`).join('')}`);
         }
-        for (const page of (await browser.pages()).slice(1))
+        for (const page of (await browser.pages()).slice(1).filter(page => !kept.includes(page)))
             await page.close();
     }
     await browser.close();

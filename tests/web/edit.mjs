@@ -7,7 +7,7 @@ import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, wr
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { browser, build, complaints, findings, firefox, newPage, run, serve } from './browser.mjs';
+import { browser, build, complaints, findings, firefox, kept, newPage, run, serve } from './browser.mjs';
 
 const words = process.argv.slice(2).filter(word => word !== '--firefox' && word !== '--all');
 const everything = process.argv.includes('--all');
@@ -68,6 +68,21 @@ async function begin(page) {
     await press(page, 'Write it yourself');
     await page.waitForSelector('.cm-content');
     await finished(page);
+}
+
+const rt = readFileSync('rt.h', 'utf8');
+const routines = [...rt.matchAll(/^#ifndef (rt_[a-z_]+)$/gm)].map(match => match[1]);
+
+// A page with all routines, at this one: the same for all tests that need no new one, which would
+// take some seconds to prepare the compiler.
+async function warm(routine) {
+    if (kept.length === 0) {
+        kept.push(await open(routines.join(' ')));
+        await begin(kept[0]);
+    }
+    await kept[0].select('.edit select', routine);
+    await finished(kept[0]);
+    return kept[0];
 }
 
 // As a reader would paste it.
@@ -155,11 +170,6 @@ test('first: what is fetched, and when', async () => {
     await page.waitForFunction(async () => (await Promise.all((await caches.keys())
         .map(async key => (await (await caches.open(key)).keys()).length))).join() === '5');
     await page.close();
-    fetched.length = 0;
-    const again = await open();
-    await begin(again);
-    assert.deepEqual(fetched.filter(([path]) => /\.bin/.test(path)), [], 'kept by the browser');
-    await again.close();
 });
 
 test('the server ends meanwhile', async () => {
@@ -180,8 +190,7 @@ test('the server ends meanwhile', async () => {
 });
 
 test('right and wrong answers', async () => {
-    const page = await open();
-    await begin(page);
+    const page = await warm('rt_hit_sphere');
     let said = await attempt(page, copied);
     assert.match(said.verdict, /8 of 9 kinds of input right/);
     assert.match(said.verdict, /WRONG {2}no direction, NaN, infinity\n +input \d+ of 200: center .*\n +yours: hit .*\n +right: hit 0/);
@@ -200,12 +209,10 @@ test('right and wrong answers', async () => {
     times.sort((a, b) => a - b);
     console.log(`  later, from paste to verdict: ${times[0].toFixed(0)} to ${times.at(-1).toFixed(0)} ms, ` +
         `mostly ${times[times.length >> 1].toFixed(0)}; ${await text(page, '.edit-status')}`);
-    await page.close();
 });
 
 test('a mistake is marked in its line', async () => {
-    const page = await open();
-    await begin(page);
+    const page = await warm('rt_hit_sphere');
     let said = await attempt(page, right.replace('return true;', 'return true'));
     const line = right.split('\n').findIndex(line => /return true;/.test(line)) + 1;
     assert.match(said.status, /my_hit_sphere\.c: does not compile/);
@@ -232,12 +239,10 @@ test('a mistake is marked in its line', async () => {
     assert.match(said.verdict, /all right/);
     said = await attempt(page, `${right}/* ${'x'.repeat(1 << 20)} */`);
     assert.match(said.status, /larger than a megabyte/);
-    await page.close();
 });
 
 test('what goes wrong while it runs', async () => {
-    const page = await open('rt_reflect');
-    await begin(page);
+    const page = await warm('rt_reflect');
     const from = performance.now();
     let said = await attempt(page, submission('eva.c'));
     assert.match(said.verdict, /WRONG {2}unit vectors: no end within 3 seconds\n0 of 2/);
@@ -257,12 +262,10 @@ test('what goes wrong while it runs', async () => {
     assert.match(said.verdict, /0 of 2/);
     said = await attempt(page, reflect('').replace('2 *', '2.0f *'));
     assert.match(said.verdict, /all right: 2 of 2/); // it still lives
-    await page.close();
 });
 
 if (everything) test('what else goes wrong while it runs', async () => {
-    const page = await open('rt_reflect');
-    await begin(page);
+    const page = await warm('rt_reflect');
     let said = await attempt(page, submission('finn.c'));
     assert.match(said.verdict, /WRONG {2}unit vectors: it crashed: it read or wrote outside/);
     said = await attempt(page, submission('kim.c'));
@@ -279,14 +282,10 @@ if (everything) test('what else goes wrong while it runs', async () => {
     assert.match(said.verdict, /it crashed: it reached a place that it must not reach/);
     said = await attempt(page, reflect('float *volatile p = 0; *p = 1;'));
     assert.match(said.verdict, /it crashed/);
-    await page.close();
 });
 
 test('each routine, as rt.h has it, is all right', async () => {
-    const rt = readFileSync('rt.h', 'utf8');
-    const names = [...rt.matchAll(/^#ifndef (rt_[a-z_]+)$/gm)].map(match => match[1]);
-    const page = await open(names.join(' '));
-    await begin(page);
+    const page = await warm(routines[0]);
     const own = name => (name === 'rt_hit_sphere' ? right // rt.h's are in pieces
         : name === 'rt_hit_triangle' ? readFileSync('tests/classroom/submissions/tara.c', 'utf8')
         : new RegExp(`^static inline [^;{}]*[ *]${name}\\([^;{}]*\\{$[^]*?^\\}`, 'm').exec(rt)[0]
@@ -294,7 +293,7 @@ test('each routine, as rt.h has it, is all right', async () => {
     const file = some => `${some.map(name => `#define ${name} my_${name.slice(3)}\n`).join('')}#include "rt.h"\n\n` +
         some.map(own).join('\n\n');
     const slow = [];
-    for (const some of everything ? names.map(name => [name]) : [names]) { // one by one, or all in one file
+    for (const some of everything ? routines.map(name => [name]) : [routines]) { // one by one, or all in one file
         await page.select('.edit select', some[0]);
         await finished(page);
         const from = performance.now();
@@ -304,9 +303,8 @@ test('each routine, as rt.h has it, is all right', async () => {
     }
     await page.evaluate(() => localStorage.clear());
     slow.sort(([a], [b]) => b - a);
-    console.log(`  ${names.length} routines; from paste to verdict, ms: ` +
+    console.log(`  ${routines.length} routines; from paste to verdict, ms: ` +
         `${slow.map(([ms, name]) => `${name} ${ms.toFixed(0)}`).join(', ')}`);
-    await page.close();
 });
 
 test('the text is kept, saved and given back', async () => {
@@ -317,8 +315,10 @@ test('the text is kept, saved and given back', async () => {
     assert.match(starter, /My own rt_hit_sphere[^]*#define rt_hit_sphere my_hit_sphere/);
     await attempt(page, right);
     await page.close();
+    fetched.length = 0;
     page = await open();
     await begin(page);
+    assert.deepEqual(fetched.filter(([path]) => /\.bin/.test(path)), [], 'the compiler, too');
     assert.equal(await saved(page, 'my_hit_sphere.c'), right);
     await page.select('.edit select', 'rt_camera_ray');
     await finished(page);
@@ -371,8 +371,7 @@ test('the marks of make grade', async () => {
     const table = rows.map(line => line.split(',')).filter((_, i) => everything || i % 9 === 0);
     const chapters = [...head.matchAll(/chapter (\d+)/g)].map(([, chapter]) => chapter);
     const work = mkdtempSync(join(tmpdir(), 'rt-edit-'));
-    const page = await open('rt_reflect rt_hit_sphere');
-    await begin(page);
+    const page = await warm('rt_reflect');
     for (const [quoted, ...rest] of table) {
         const numbers = rest.slice(0, 2 * chapters.length); // then comes what it uses
         const name = JSON.parse(quoted), path = join(all, name);
@@ -410,7 +409,6 @@ test('the marks of make grade', async () => {
         ['--folder', work, '--try', join(work, 'my_hit_sphere.c')], { encoding: 'utf8' });
     assert.match(tried.stdout, /\nall right\n$/);
     await press(page, 'start over');
-    await page.close();
     rmSync(work, { recursive: true });
 });
 
@@ -440,7 +438,6 @@ test('the picture by it, beside the right one', async () => {
         told.push(await page.evaluate(() => document.querySelector('.live').live.say_path()));
     }
     assert.ok(told.some(words => /meets the floor[^]*hidden by the floor/.test(words)), told.join('\n'));
-    const rt = readFileSync('rt.h', 'utf8');
     const body = /^static inline rt_vec3 rt_leave\([^{;]*\n(\{[^]*?\n\})/m.exec(rt)[1];
     const [good, again] = await draw(`#define rt_leave my_leave\n#include "rt.h"\n${leave}${body}\n`);
     assert.equal(again, expected);

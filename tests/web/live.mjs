@@ -495,7 +495,7 @@ const watched = () => {
 
 tests['a draft comes first, and no picture has holes'] = async () => {
     for (const demo of ['demo07', 'demo10']) {
-        const page = await open(demo, { before: watched, size: [480, 360] });
+        const page = await open(demo, { before: watched });
         await done(page);
         const live = await page.evaluate(() => { const { first, whole } = document.querySelector('.live').live; return { first, whole }; });
         assert.ok(live.first > 0 && live.first < live.whole, `${demo}: ${live.first}, ${live.whole}`);
@@ -504,7 +504,7 @@ tests['a draft comes first, and no picture has holes'] = async () => {
 };
 
 tests['with reduced motion it shows few steps'] = async () => {
-    const page = await open('demo07', { before: watched, size: [480, 360], features: [{ name: 'prefers-reduced-motion', value: 'reduce' }] });
+    const page = await open('demo07', { before: watched, features: [{ name: 'prefers-reduced-motion', value: 'reduce' }] });
     await done(page);
     const samples = await page.evaluate(() => document.querySelector('.live').live.ex.page_samples());
     assert.ok(await page.evaluate(() => window.painted) <= 1 + Math.ceil(Math.log2(samples)));
