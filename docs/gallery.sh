@@ -35,7 +35,8 @@ render() { # NAME SUBMISSION OPTIONS
 red() { # NAME FILE: the first test of its chapter that goes red on it
     case $1 in 10-*) test=18 ;; 1[1-7]-*) test=$((${1%%-*} + 9)) ;; *) test=0${1%%-*} ;; esac
     test=$(basename "$(ls tests/"$test"_*.c)" .c)
-    $cc -std=c99 -O1 -ffp-contract=off -w -I. -include "$2" -o "$work/$1.test" "tests/$test.c" \
+    case $1 in 12-* | 16-*) level=-O1 ;; *) level=-O0 ;; esac # what comes before the red one takes long there
+    $cc -std=c99 $level -ffp-contract=off -w -I. -include "$2" -o "$work/$1.test" "tests/$test.c" \
         $(pkg-config --cflags --libs cmocka libcjson) -lm || return
     { said=$(CMOCKA_TEST_ABORT=1 timeout 100 "$work/$1.test" 2>&1); } 2>/dev/null
     [ $? != 134 ] || # it was red, and aborted

@@ -7,7 +7,7 @@
 #include "scene_file.h"
 #include "test.h"
 
-/* RENDER_ONLY is for the sanitizers, which are slow: two passes, and no comparison. */
+/* RENDER_ONLY is for tests/check, once gcc's pictures are compared: two passes, and no comparison. */
 #ifdef RENDER_ONLY
 enum { PASSES = 2 };
 #else

@@ -331,7 +331,7 @@ static void test_it_is_nearer_to_the_truth(void **state)
     /* At most a quarter of the error at 16 samples, half of it at every count, and no
      * harm where hardly any noise is left. */
     (void)state;
-#ifdef RENDER_ONLY /* for the sanitizers, see 10_references.c: other tests have the same code */
+#ifdef RENDER_ONLY /* see 10_references.c: other tests have the same code */
     skip();
 #endif
     picture truth = room(160, 120, 1024, 99);
