@@ -55,7 +55,7 @@ static rt_options attentive(whole *w)
 
 static int take(int step); /* the demo has it */
 
-/* The task goes from machine 0 to all. A wait of MPI's would keep each of their cores busy. */
+/* Send the task from machine 0 to all others. MPI's own wait would keep their cores busy. */
 static void share(task *t)
 {
     MPI_Request request;
